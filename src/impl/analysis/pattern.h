@@ -10,11 +10,17 @@
 typedef struct sli_analysis {
     sl_int n;
     sl_int workers; /* 0: one */
-    double clock;   /* when it was last read */
+    sli_team *team; /* NULL: one worker */
+    const sl_options *opt;
+    sl_stats *found;
+    int keeps_order; /* the caller's; is_in_order: the columns need no postorder */
+    int is_in_order;
+    const sl_symbolic *S; /* the object that is filled */
+    double clock;         /* when it was last read */
     int64_t clock_entries;
     const sl_csc *A;
     sli_hash pattern; /* of A */
-    sl_int *column;   /* nnz: of each entry of A; sli_pattern_fill changes them */
+    sl_int *column;   /* nnz or n + 1: of each entry of A; sli_structure_sort changes them */
     sl_int side;      /* an entry of A is read if side (row - column) >= 0; 0: all are */
     sli_pattern columns;
     sli_amalgamation amalgamation;
@@ -39,13 +45,13 @@ typedef struct sli_analysis {
 /* The memory of one worker, in sl_int. */
 #define SLI_ANALYSIS_ROOM(n) ((uint64_t)(n) + 16)
 
-/* Counts the entries p .. end-1: turns the column of each into that in P A P', or n if it is not
+/* Counts a range of entries: turns the column of each into that in P A P', or n if it is not
  * read, and keeps its row. */
-SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int end, sl_int *at,
+SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, const sli_range *r, sl_int *at,
                                          sl_int side) {
     const sl_int *row = w->A->i, *iperm = w->scratch, n = w->n;
-    sl_int *column = w->column, *moved = w->moved;
-    for (; p < end; p++) {
+    sl_int *column = w->column, *moved = w->moved, p;
+    for (p = r->first; p < r->last; p++) {
         const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
         const sl_int to = /* branches untested: 0 is constant in a copy */
             side * (row[p] - column[p]) >= 0 ? k : n; /* branches untested: the same */
@@ -55,30 +61,22 @@ SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int
     }
 }
 
-/* Where the entries of range r begin. */
-SLI_INLINE sl_int sli_pattern_first(const sli_analysis *w, sl_int r) {
-    return (sl_int)((int64_t)sli_nnz(w->A) * r / sli_max(w->workers, 1));
-}
-
-static void sli_pattern_count_item(void *data, sl_int r, sl_int worker) {
+static void sli_pattern_count_item(void *data, const sli_range *r) {
     const sli_analysis *w = (const sli_analysis *)data;
-    const sl_int p = sli_pattern_first(w, r), end = sli_pattern_first(w, r + 1);
-    sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
-    (void)worker;
+    sl_int *at = w->room + (uint64_t)r->item * SLI_ANALYSIS_ROOM(w->n);
     SLI_ZERO(at, w->n + 1);
     if (w->side == 0) { /* a copy for this case has half of the operations */
-        sli_pattern_count(w, p, end, at, 0);
+        sli_pattern_count(w, r, at, 0);
     } else {
-        sli_pattern_count(w, p, end, at, w->side);
+        sli_pattern_count(w, r, at, w->side);
     }
 }
 
-static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
+static void sli_pattern_fill_item(void *data, const sli_range *r) {
     const sli_analysis *w = (const sli_analysis *)data;
-    const sl_int *column = w->column, *moved = w->moved, end = sli_pattern_first(w, r + 1);
-    sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n), p;
-    (void)worker;
-    for (p = sli_pattern_first(w, r); p < end; p++) {
+    const sl_int *column = w->column, *moved = w->moved;
+    sl_int *at = w->room + (uint64_t)r->item * SLI_ANALYSIS_ROOM(w->n), p;
+    for (p = r->first; p < r->last; p++) {
         sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
         entry[0] = moved[p];
         entry[1] = column[p];
@@ -87,13 +85,16 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
 }
 
 /* Fills the lower triangle of P A P', so that later passes walk it in elimination order. It is a
- * counting sort. Each range has counters of its own. scratch: the inverse of perm. */
-static void sli_pattern_fill(sli_analysis *w, sli_team *team) {
-    const sl_int ranges = sli_max(w->workers, 1);
+ * counting sort. Each range has counters of its own. scratch gets the inverse of perm. */
+static void sli_pattern_fill(sli_analysis *w) {
+    const sl_int ranges = sli_max(w->workers, 1), nnz = sli_nnz(w->A);
     sl_int r, unread;
+    for (r = 0; r < w->n; r++) {
+        w->scratch[w->perm[r]] = r;
+    }
     /* Tree and supernodes fill 7 n elements from parent on later: pages are touched once. */
-    w->moved = w->choice.has_tree || sli_nnz(w->A) / 7 >= w->n ? w->spare : w->parent;
-    sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
+    w->moved = w->choice.has_tree || nnz / 7 >= w->n ? w->spare : w->parent;
+    sli_range_run(w->team, nnz, ranges, sli_pattern_count_item, w);
     sli_pattern_starts(&w->columns, w->n, w->room, ranges, (size_t)SLI_ANALYSIS_ROOM(w->n));
     unread = w->columns.begin[w->n];
     for (r = 0; r < ranges; r++) {
@@ -101,7 +102,7 @@ static void sli_pattern_fill(sli_analysis *w, sli_team *team) {
         unread += *at;
         *at = unread - *at;
     }
-    sli_team_loop(team, ranges, NULL, sli_pattern_fill_item, w);
+    sli_range_run(w->team, nnz, ranges, sli_pattern_fill_item, w);
 }
 
 #endif

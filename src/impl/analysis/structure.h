@@ -16,45 +16,39 @@ typedef struct sli_structure_super {
     sl_int next;   /* where the next entry goes in the map */
 } sli_structure_super;
 
-/* Fills scatter_begin: sums of the numbers of entries of A in each supernode's columns. */
-static void sli_structure_count(const sli_analysis *w, const sl_symbolic *S) {
-    const sl_int *begin = w->columns.begin, *old_of = w->old_of, *super_of = S->super_of;
-    sl_off *end = S->scatter_begin + 1, total = 0; /* of each supernode */
-    sl_int k;
-    S->scatter_begin[0] = 0;
-    for (k = 0; k < w->n; k++) { /* its last column writes last: without branches */
-        total += begin[old_of[k] + 1] - begin[old_of[k]];
-        end[super_of[k]] = total;
-    }
-}
-
-/* Sorts the entries of A by rows: to[] := column and position in A, of the rows in the final order.
- * Within a row they keep the order of the columns, so that duplicates are neighbors. at: n, the
- * ends of the rows, by their old numbers. */
-static void sli_structure_sort(const sli_analysis *w, sl_int *to, sl_int *at) {
-    const sl_int *begin = w->columns.entry, *new_of = w->new_of, *entry;
+/* Sorts the entries of A by rows, all by old numbers: spare := column and position in A; column :=
+ * where rows begin. Within a row they keep the order of the columns: duplicates are neighbors. */
+static void sli_structure_sort(const sli_analysis *w) {
+    const sl_int *begin = w->columns.entry, *entry;
     const sl_int *end = begin + SLI_ENTRY * (size_t)w->columns.begin[w->n];
-    sl_int k, total = 0;
-    SLI_ZERO(at, w->n);
+    sl_int k, total = 0, *at = w->column + 1;
+    SLI_ZERO(w->column, w->n + 1);
     for (entry = begin; entry < end; entry += SLI_ENTRY) {
         at[entry[0]]++;
     }
     for (k = 0; k < w->n; k++) {
-        sl_int *row = &at[w->old_of[k]];
-        total += *row;
-        *row = total - *row;
+        total += at[k];
+        at[k] = total - at[k];
     }
     for (entry = begin; entry < end; entry += SLI_ENTRY) {
-        sl_int *here = to + 2 * (size_t)at[entry[0]]++;
-        here[0] = new_of[entry[1]];
+        sl_int *here = w->spare + 2 * (size_t)at[entry[0]]++;
+        here[0] = entry[1];
         here[1] = entry[2];
     }
 }
 
-/* Starts all supernodes. Their first rows will be in the first tiles. */
-static void sli_structure_start(const sli_analysis *w, const sl_symbolic *S,
-                                sli_structure_super *all) {
+/* Fills scatter_begin: sums of the numbers of entries of A in each supernode's columns. Starts all
+ * supernodes. Their first rows will be in the first tiles. */
+static void sli_structure_start(const sli_analysis *w, const sl_symbolic *S) {
+    const sl_int *begin = w->columns.begin, *old_of = w->old_of;
+    sl_off *end = S->scatter_begin + 1, total = 0; /* of each supernode */
+    sli_structure_super *all = w->supers;
     sl_int s;
+    end[-1] = 0;
+    for (s = 0; s < w->n; s++) { /* its last column writes last: without branches */
+        total += begin[old_of[s] + 1] - begin[old_of[s]];
+        end[S->super_of[s]] = total;
+    }
     for (s = 0; s < S->n_supers; s++) {
         sli_structure_super *v = &all[s];
         const sl_int first = S->super_first[s];
@@ -84,40 +78,43 @@ SLI_ALWAYS_INLINE void sli_structure_add(sli_structure_super *v, sl_int k) {
 SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structure_super *v,
                                            sl_int k, sl_int *rows, sl_int *relative,
                                            int has_parts) {
-    while (v->last != k) { /* branches untested: has_parts is constant in each copy */
+    while (v->last != k) {
         sli_structure_super *up = all + v->up;
         const sl_off at = v->rows + v->height;
         rows[at] = k;
         relative[at] = up->height - (up->last == k);
         sli_structure_add(v, k);
-        v = has_parts && up->bottom != v->bottom /* branches untested: the same */
-                ? all + up->bottom
-                : up; /* branches untested: the same */
+        v = has_parts && up->bottom != v->bottom ? all + up->bottom : up;
     }
 }
 
-/* Fills the rows of all supernodes, their relative indices and the scatter map, in one pass over
- * the rows of A. Row k is a row of the supernodes on the paths from those of its entries to that of
- * k. So all rows, and the entries of the map, are found in ascending order. */
-SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbolic *S,
-                                          sli_structure_super *all, int has_parts) {
-    const sl_int *super_of = S->super_of, *row = w->spare, *at = w->scratch, *old_of = w->old_of;
+/* Fills the rows of supernodes, their relative indices and the scatter map, in a pass over a range
+ * of the rows of A. Row k is a row of the supernodes on the paths from those of its entries to that
+ * of k. So all rows, and the entries of the map, are found in ascending order. Rows with columns
+ * before the range below them are left to a later pass, as are then all rows above them. */
+static void sli_structure_rows(void *data, const sli_range *r) {
+    const sli_analysis *w = (const sli_analysis *)data;
+    const sl_symbolic *S = w->S;
+    const sl_int *super_of = S->super_of, *new_of = w->new_of, *row;
+    const int has_parts = w->earlier != NULL;
     sl_int *rows = S->rows, *relative = S->relative, *from = S->scatter_from, k;
-    const sl_int n = w->n;
     sl_off *to = S->scatter_to;
-    for (k = 0; k < n; k++) {
-        const sl_int *end = w->spare + 2 * (size_t)at[old_of[k]];
+    sli_structure_super *all = w->supers;
+    for (k = r->first; k < r->last; k++) {
+        const sl_int *begin = w->column + w->old_of[k];
+        const sl_int *end = w->spare + 2 * (size_t)begin[1];
         sli_structure_super *own = all + super_of[k];
-        sli_structure_add(own, k);
-        if (has_parts) { /* branches untested: the same */
-            sli_structure_climb(all, all + own->bottom, k, rows, relative, 1);
+        if ((r->first > 0 && S->super_first[S->first_descendant[super_of[k]]] < r->first) ||
+            own->last >= k) {
+            continue;
         }
-        for (; row < end; row += 2) {
-            const sl_int column = row[0];
+        sli_structure_add(own, k);
+        sli_structure_climb(all, all + own->bottom, k, rows, relative, has_parts);
+        for (row = w->spare + 2 * (size_t)begin[0]; row < end; row += 2) {
+            const sl_int column = new_of[row[0]];
             sli_structure_super *v = all + super_of[column];
             sl_int e;
-            sli_structure_climb(all, /* branches untested: the same */
-                                has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
+            sli_structure_climb(all, has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
             e = v->next++;
             from[e] = row[1];
             to[e] = v->to + SLI_TILE * (sl_off)column;
@@ -137,16 +134,15 @@ static void sli_fill_panels(const sli_analysis *w, sl_symbolic *S) {
     S->panel_begin[s] = end;
 }
 
-static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
-    sli_structure_super *all = w->supers;
-    sli_structure_count(w, S);
-    sli_structure_sort(w, w->spare, w->scratch);
-    sli_structure_start(w, S, all);
-    if (w->earlier == NULL) {
-        sli_structure_rows(w, S, all, 0);
-    } else {
-        sli_structure_rows(w, S, all, 1);
+static void sli_fill_structure(sli_analysis *w, const sl_symbolic *S) {
+    const sli_range all = {0, w->n, 0, 0};
+    const sl_int count = w->team == NULL ? 1 : sli_shares_count(w->team, w->n);
+    w->S = S;
+    sli_structure_start(w, S);
+    if (count > 1) {
+        sli_range_run(w->team, w->n, count, sli_structure_rows, w);
     }
+    sli_structure_rows(w, &all);
 }
 
 /* Do nearly all supernodes have one column? Where one in ten is wider, runs are short, and sweeps

@@ -15,15 +15,19 @@ typedef struct sli_symbolic_job {
     sl_status status;
 } sli_symbolic_job;
 
-/* Orders the rows in the memory that the analysis needs later only. */
-static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
+/* The steps of an analysis, by the leader of a team: order, in memory that the others need later
+ * only; tree; object. */
+static void sli_symbolic_run(sli_team *team, void *data) {
+    sli_symbolic_job *j = (sli_symbolic_job *)data;
+    sl_symbolic_info *info = &j->found.symbolic;
     sli_analysis *w = &j->w;
     sli_order_job order;
-    sl_status status;
+    sl_symbolic draft;
+    w->team = team;
     SLI_CLEAR(order);
     order.A = w->A;
     order.column = w->column;
-    order.triangle = j->found.symbolic.triangle;
+    order.triangle = info->triangle;
     order.opt = j->opt;
     order.perm = w->perm;
     order.scratch = w->scratch;
@@ -32,21 +36,15 @@ static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
     order.team = team;
     order.a = &j->for_order;
     order.stats = &j->found;
-    status = sli_order(&order);
-    j->found.symbolic.seconds_order = sli_analysis_lap(w);
-    return status;
-}
-
-/* The steps of an analysis, by the leader of a team: order, tree, object. */
-static void sli_symbolic_run(sli_team *team, void *data) {
-    sli_symbolic_job *j = (sli_symbolic_job *)data;
-    sli_analysis *w = &j->w;
-    sl_symbolic draft;
-    j->status = sli_symbolic_order(j, team);
+    j->status = sli_order(&order);
+    info->seconds_order = sli_analysis_lap(w);
     if (j->status != SL_OK) {
         return;
     }
-    sli_analyze_order(w, j->opt, team, &j->found);
+    sli_pattern_fill(w);
+    sli_analyze_tree(w, j->opt, &j->found);
+    info->seconds_tree = sli_analysis_lap(w);
+    info->seconds_analyze += info->seconds_tree;
     sli_clear(&draft, sizeof draft);
     draft.allocator = j->a;
     draft.nnz_input = sli_nnz(w->A);
@@ -56,7 +54,7 @@ static void sli_symbolic_run(sli_team *team, void *data) {
 
 /* What several workers share of the analysis takes as long as so many operations of a factorization
  * for each entry of A. */
-#define SLI_ANALYSIS_FLOPS 100.0
+#define SLI_ANALYSIS_FLOPS 400.0
 
 /* The workers that share the analysis without the ordering. METIS traps signals of the caller's
  * thread. */

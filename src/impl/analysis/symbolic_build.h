@@ -17,7 +17,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     const uint64_t n = (uint64_t)rows; /* 5 n may exceed 2^32 */
     size_t begin, end;
     w->n = rows;
-    w->column = SLI_CUT(b, sl_int, nnz);
+    w->column = SLI_CUT(b, sl_int, sli_max(nnz, rows + 1));
     w->perm = SLI_CUT(b, sl_int, rows);
     w->scratch = SLI_CUT(b, sl_int, 5 * n);
     w->septree.node_of = SLI_CUT(b, sl_int, rows);
@@ -122,7 +122,7 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
 }
 
 /* Finds tree and counts. Returns whether the columns need no postorder. */
-static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
+static int sli_analyze_columns(sli_analysis *w) {
     sl_int *sequence = (sl_int *)(void *)w->list;
     sli_tree_result result;
     sli_tree_job job;
@@ -133,7 +133,7 @@ static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
     job.list = w->spare;
     job.scratch = w->scratch;
     job.sequence = NULL;
-    job.keeps_order = keeps_order;
+    job.keeps_order = w->keeps_order;
     result = sli_tree_and_counts(&job);
     if (result == SLI_TREE_TOO_LONG) {
         sli_tree_sequence(&job, sequence, w->list + w->n);
@@ -143,13 +143,19 @@ static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
     return result == SLI_TREE_IN_ORDER;
 }
 
-/* Finds tree, counts and supernodes, and renumbers the columns to their final order. */
-static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
+/* Item 0 finds the supernodes and renumbers the columns to their final order. Item 1 needs neither,
+ * but memory that the tree does not need any more. */
+static void sli_analyze_item(void *data, sl_int item, sl_int worker) {
+    sli_analysis *w = (sli_analysis *)data;
+    const sl_options *opt = w->opt;
     const sl_int n = w->n;
-    const int keeps_order =
-        opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
     sl_int *order = (sl_int *)(void *)w->list; /* the numbering needs all of scratch */
     sl_int *child = w->scratch, *more = w->scratch + n, *sequence = NULL, k;
+    (void)worker;
+    if (item == 1) {
+        sli_structure_sort(w);
+        return;
+    }
     sli_order_natural(n, w->old_of);
     sli_order_natural(n, w->new_of);
     for (k = 0; k < n && w->choice.has_tree; k++) {
@@ -157,15 +163,15 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     }
     if (w->choice.has_tree) {
         sli_find_other_children(n, w->parent, more);
-    } else if (!sli_analyze_columns(w, keeps_order)) { /* otherwise more is filled */
+    } else if (!w->is_in_order) { /* otherwise more is filled */
         sli_postorder(w->parent, NULL, n, order, child, more);
         sli_analysis_reorder(w, order);
-        sequence = keeps_order ? w->new_of : NULL;
+        sequence = w->keeps_order ? w->new_of : NULL;
         sli_find_other_children(n, w->parent, more);
     }
     w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
-    stats->symbolic.supernodes_fundamental = w->amalgamation.count;
+    w->found->symbolic.supernodes_fundamental = w->amalgamation.count;
     w->amalgamation.is_large = sli_is_large(w->counts, n);
     w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
     if (w->pairs != NULL) {
@@ -183,26 +189,22 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     }
 }
 
+/* Finds tree, counts and supernodes, and renumbers the columns to their final order. */
+static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
+    sli_team alone = sli_team_of(1);
+    w->opt = opt;
+    w->found = stats;
+    w->keeps_order =
+        opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
+    w->is_in_order = w->choice.has_tree || sli_analyze_columns(w);
+    sli_team_loop(w->team == NULL ? &alone : w->team, 2, NULL, sli_analyze_item, w);
+}
+
 /* The processor seconds since the last call. */
 SLI_NOINLINE static double sli_analysis_lap(sli_analysis *w) {
     const double before = w->clock;
     w->clock = sli_seconds_for(w->clock_entries);
     return w->clock - before;
-}
-
-/* Finds everything that depends on the order in w->perm. */
-static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
-                              sl_stats *stats) {
-    double lap;
-    sl_int k;
-    for (k = 0; k < w->n; k++) {
-        w->scratch[w->perm[k]] = k;
-    }
-    sli_pattern_fill(w, team);
-    sli_analyze_tree(w, opt, stats);
-    lap = sli_analysis_lap(w);
-    stats->symbolic.seconds_tree += lap;
-    stats->symbolic.seconds_analyze += lap;
 }
 
 /* Fills the counts. depth: n of scratch. */

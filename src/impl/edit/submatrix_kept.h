@@ -55,7 +55,7 @@ typedef struct sli_restriction {
     sl_relaxation relaxation;
     sl_int n_entries; /* of the graph of new columns: one triangle */
     sl_int *entry_row, *entry_column;
-    sl_int *entry_from; /* position in A or B; -1: of a clique */
+    sl_int *entry_from; /* position in A or B; -1: of a clique; until the tree is found */
     /* if B_values is not NULL, B is a copy of the entries of A in the graph, by the columns of the
      * caller's order */
     sl_csc B;

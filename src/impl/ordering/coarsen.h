@@ -188,7 +188,10 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
     }
     clusters->start[0] = 0;
     for (k = 0; k < (sl_off)g->n + 511; k++) {
-        const sl_off at = sli_visited(k);
+        const sl_off at = sli_visited(k), ahead = at + 8192;
+        if (ahead < g->n) { /* patches grow beyond the window where levels of a search are long */
+            SLI_PREFETCH(g->to + g->begin[ahead], 0);
+        }
         if (at < g->n && g->coarse[at] == -1 && !sli_level_is_hub(g, (sl_int)at) &&
             (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
             weight[count] =

@@ -186,6 +186,8 @@ static void sli_contract_range(void *data, const sli_range *r) {
         c->weight[k] = 0;
         for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
             const sl_int v = clusters->member[m];
+            /* lists of patches are far apart */
+            SLI_PREFETCH(g->to + g->begin[clusters->member[sli_min(m + 32, g->n - 1)]], 0);
             c->weight[k] += sli_level_weight(g, v);
             if (is_plain) {
                 count = sli_contract_plain(g, c, v, at, first, count);
