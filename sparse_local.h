@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 65a515c679a959f5
+ * FNV-1a of the lines after this comment, without the license: 68a971ec49e5d747
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,25 +36,25 @@
  *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4966 impl/ matrix: sparse matrices of the caller and of the library
  *   5828 impl/ ordering: fill-reducing orderings of a graph
- *  10585 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12827 impl/ factor: the numbers of L and D
- *  15414 impl/ solve: full and local solves
- *  16926 impl/ singular: null spaces of semidefinite matrices
- *  18177 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20216 impl/ pivots: the order of the pivots by the values of a matrix
- *  20620 impl/ float: L in single precision
- *  20803 impl/ inverse: entries of the inverse, regions
- *  23705 impl/ change: a factor that follows changes of its matrix
- *  25975 impl/ constraints: rows held at values, on a factor that stays
- *  27326 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30052 impl/ fixed: rows fixed at given values
- *  30608 impl/ io: files that are replaced only when they are complete
- *  30827 impl/ files: Matrix Market files, 64-bit indices
- *  31383 impl/ save: factors in files
- *  33354 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34038 impl/ complex: complex Hermitian systems over real factors
- *  34506 impl/ packs: the tables through which the core calls packs
- *  34930 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10589 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12828 impl/ factor: the numbers of L and D
+ *  15415 impl/ solve: full and local solves
+ *  16927 impl/ singular: null spaces of semidefinite matrices
+ *  18178 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20217 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20621 impl/ float: L in single precision
+ *  20804 impl/ inverse: entries of the inverse, regions
+ *  23706 impl/ change: a factor that follows changes of its matrix
+ *  25976 impl/ constraints: rows held at values, on a factor that stays
+ *  27327 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30053 impl/ fixed: rows fixed at given values
+ *  30609 impl/ io: files that are replaced only when they are complete
+ *  30828 impl/ files: Matrix Market files, 64-bit indices
+ *  31384 impl/ save: factors in files
+ *  33355 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34039 impl/ complex: complex Hermitian systems over real factors
+ *  34507 impl/ packs: the tables through which the core calls packs
+ *  34931 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6487,6 +6487,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
     c->weight[k] = 0;
     for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
       const sl_int v = clusters->member[m];
+      SLI_PREFETCH(g->to + g->begin[clusters->member[sli_min(m + 32, g->n - 1)]], 0);
       c->weight[k] += sli_level_weight(g, v);
       if (is_plain) {
         count = sli_contract_plain(g, c, v, at, first, count);
@@ -6714,7 +6715,10 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
   }
   clusters->start[0] = 0;
   for (k = 0; k < (sl_off)g->n + 511; k++) {
-    const sl_off at = sli_visited(k);
+    const sl_off at = sli_visited(k), ahead = at + 8192;
+    if (ahead < g->n) {
+      SLI_PREFETCH(g->to + g->begin[ahead], 0);
+    }
     if (at < g->n && g->coarse[at] == -1 && !sli_level_is_hub(g, (sl_int)at) &&
         (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
       weight[count] =
@@ -11294,6 +11298,12 @@ static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent, const unsi
 typedef struct sli_analysis {
   sl_int n;
   sl_int workers;
+  sli_team *team;
+  const sl_options *opt;
+  sl_stats *found;
+  int keeps_order;
+  int is_in_order;
+  const sl_symbolic *S;
   double clock;
   int64_t clock_entries;
   const sl_csc *A;
@@ -11321,11 +11331,11 @@ typedef struct sli_analysis {
 
 #define SLI_ANALYSIS_ROOM(n) ((uint64_t)(n) + 16)
 
-SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int end, sl_int *at,
+SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, const sli_range *r, sl_int *at,
     sl_int side) {
   const sl_int *row = w->A->i, *iperm = w->scratch, n = w->n;
-  sl_int *column = w->column, *moved = w->moved;
-  for (; p < end; p++) {
+  sl_int *column = w->column, *moved = w->moved, p;
+  for (p = r->first; p < r->last; p++) {
     const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
     const sl_int to = /* branches untested: 0 is constant in a copy */
       side * (row[p] - column[p]) >= 0 ? k : n; /* branches untested: the same */
@@ -11335,29 +11345,22 @@ SLI_ALWAYS_INLINE void sli_pattern_count(const sli_analysis *w, sl_int p, sl_int
   }
 }
 
-SLI_INLINE sl_int sli_pattern_first(const sli_analysis *w, sl_int r) {
-  return (sl_int)((int64_t)sli_nnz(w->A) * r / sli_max(w->workers, 1));
-}
-
-static void sli_pattern_count_item(void *data, sl_int r, sl_int worker) {
+static void sli_pattern_count_item(void *data, const sli_range *r) {
   const sli_analysis *w = (const sli_analysis *)data;
-  const sl_int p = sli_pattern_first(w, r), end = sli_pattern_first(w, r + 1);
-  sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
-  (void)worker;
+  sl_int *at = w->room + (uint64_t)r->item * SLI_ANALYSIS_ROOM(w->n);
   SLI_ZERO(at, w->n + 1);
   if (w->side == 0) {
-    sli_pattern_count(w, p, end, at, 0);
+    sli_pattern_count(w, r, at, 0);
   } else {
-    sli_pattern_count(w, p, end, at, w->side);
+    sli_pattern_count(w, r, at, w->side);
   }
 }
 
-static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
+static void sli_pattern_fill_item(void *data, const sli_range *r) {
   const sli_analysis *w = (const sli_analysis *)data;
-  const sl_int *column = w->column, *moved = w->moved, end = sli_pattern_first(w, r + 1);
-  sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n), p;
-  (void)worker;
-  for (p = sli_pattern_first(w, r); p < end; p++) {
+  const sl_int *column = w->column, *moved = w->moved;
+  sl_int *at = w->room + (uint64_t)r->item * SLI_ANALYSIS_ROOM(w->n), p;
+  for (p = r->first; p < r->last; p++) {
     sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
     entry[0] = moved[p];
     entry[1] = column[p];
@@ -11365,11 +11368,14 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
   }
 }
 
-static void sli_pattern_fill(sli_analysis *w, sli_team *team) {
-  const sl_int ranges = sli_max(w->workers, 1);
+static void sli_pattern_fill(sli_analysis *w) {
+  const sl_int ranges = sli_max(w->workers, 1), nnz = sli_nnz(w->A);
   sl_int r, unread;
-  w->moved = w->choice.has_tree || sli_nnz(w->A) / 7 >= w->n ? w->spare : w->parent;
-  sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
+  for (r = 0; r < w->n; r++) {
+    w->scratch[w->perm[r]] = r;
+  }
+  w->moved = w->choice.has_tree || nnz / 7 >= w->n ? w->spare : w->parent;
+  sli_range_run(w->team, nnz, ranges, sli_pattern_count_item, w);
   sli_pattern_starts(&w->columns, w->n, w->room, ranges, (size_t)SLI_ANALYSIS_ROOM(w->n));
   unread = w->columns.begin[w->n];
   for (r = 0; r < ranges; r++) {
@@ -11377,7 +11383,7 @@ static void sli_pattern_fill(sli_analysis *w, sli_team *team) {
     unread += *at;
     *at = unread - *at;
   }
-  sli_team_loop(team, ranges, NULL, sli_pattern_fill_item, w);
+  sli_range_run(w->team, nnz, ranges, sli_pattern_fill_item, w);
 }
 
 /* src/impl/analysis/structure.h: rows of the supernodes, relative indices, and the scatter map of A into L */
@@ -11393,40 +11399,35 @@ typedef struct sli_structure_super {
   sl_int next;
 } sli_structure_super;
 
-static void sli_structure_count(const sli_analysis *w, const sl_symbolic *S) {
-  const sl_int *begin = w->columns.begin, *old_of = w->old_of, *super_of = S->super_of;
-  sl_off *end = S->scatter_begin + 1, total = 0;
-  sl_int k;
-  S->scatter_begin[0] = 0;
-  for (k = 0; k < w->n; k++) {
-    total += begin[old_of[k] + 1] - begin[old_of[k]];
-    end[super_of[k]] = total;
-  }
-}
-
-static void sli_structure_sort(const sli_analysis *w, sl_int *to, sl_int *at) {
-  const sl_int *begin = w->columns.entry, *new_of = w->new_of, *entry;
+static void sli_structure_sort(const sli_analysis *w) {
+  const sl_int *begin = w->columns.entry, *entry;
   const sl_int *end = begin + SLI_ENTRY * (size_t)w->columns.begin[w->n];
-  sl_int k, total = 0;
-  SLI_ZERO(at, w->n);
+  sl_int k, total = 0, *at = w->column + 1;
+  SLI_ZERO(w->column, w->n + 1);
   for (entry = begin; entry < end; entry += SLI_ENTRY) {
     at[entry[0]]++;
   }
   for (k = 0; k < w->n; k++) {
-    sl_int *row = &at[w->old_of[k]];
-    total += *row;
-    *row = total - *row;
+    total += at[k];
+    at[k] = total - at[k];
   }
   for (entry = begin; entry < end; entry += SLI_ENTRY) {
-    sl_int *here = to + 2 * (size_t)at[entry[0]]++;
-    here[0] = new_of[entry[1]];
+    sl_int *here = w->spare + 2 * (size_t)at[entry[0]]++;
+    here[0] = entry[1];
     here[1] = entry[2];
   }
 }
 
-static void sli_structure_start(const sli_analysis *w, const sl_symbolic *S,
-    sli_structure_super *all) {
+static void sli_structure_start(const sli_analysis *w, const sl_symbolic *S) {
+  const sl_int *begin = w->columns.begin, *old_of = w->old_of;
+  sl_off *end = S->scatter_begin + 1, total = 0;
+  sli_structure_super *all = w->supers;
   sl_int s;
+  end[-1] = 0;
+  for (s = 0; s < w->n; s++) {
+    total += begin[old_of[s] + 1] - begin[old_of[s]];
+    end[S->super_of[s]] = total;
+  }
   for (s = 0; s < S->n_supers; s++) {
     sli_structure_super *v = &all[s];
     const sl_int first = S->super_first[s];
@@ -11452,37 +11453,39 @@ SLI_ALWAYS_INLINE void sli_structure_add(sli_structure_super *v, sl_int k) {
 SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structure_super *v,
     sl_int k, sl_int *rows, sl_int *relative,
     int has_parts) {
-  while (v->last != k) { /* branches untested: has_parts is constant in each copy */
+  while (v->last != k) {
     sli_structure_super *up = all + v->up;
     const sl_off at = v->rows + v->height;
     rows[at] = k;
     relative[at] = up->height - (up->last == k);
     sli_structure_add(v, k);
-    v = has_parts && up->bottom != v->bottom /* branches untested: the same */
-        ? all + up->bottom
-        : up; /* branches untested: the same */
+    v = has_parts && up->bottom != v->bottom ? all + up->bottom : up;
   }
 }
 
-SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbolic *S,
-    sli_structure_super *all, int has_parts) {
-  const sl_int *super_of = S->super_of, *row = w->spare, *at = w->scratch, *old_of = w->old_of;
+static void sli_structure_rows(void *data, const sli_range *r) {
+  const sli_analysis *w = (const sli_analysis *)data;
+  const sl_symbolic *S = w->S;
+  const sl_int *super_of = S->super_of, *new_of = w->new_of, *row;
+  const int has_parts = w->earlier != NULL;
   sl_int *rows = S->rows, *relative = S->relative, *from = S->scatter_from, k;
-  const sl_int n = w->n;
   sl_off *to = S->scatter_to;
-  for (k = 0; k < n; k++) {
-    const sl_int *end = w->spare + 2 * (size_t)at[old_of[k]];
+  sli_structure_super *all = w->supers;
+  for (k = r->first; k < r->last; k++) {
+    const sl_int *begin = w->column + w->old_of[k];
+    const sl_int *end = w->spare + 2 * (size_t)begin[1];
     sli_structure_super *own = all + super_of[k];
-    sli_structure_add(own, k);
-    if (has_parts) { /* branches untested: the same */
-      sli_structure_climb(all, all + own->bottom, k, rows, relative, 1);
+    if ((r->first > 0 && S->super_first[S->first_descendant[super_of[k]]] < r->first) ||
+        own->last >= k) {
+      continue;
     }
-    for (; row < end; row += 2) {
-      const sl_int column = row[0];
+    sli_structure_add(own, k);
+    sli_structure_climb(all, all + own->bottom, k, rows, relative, has_parts);
+    for (row = w->spare + 2 * (size_t)begin[0]; row < end; row += 2) {
+      const sl_int column = new_of[row[0]];
       sli_structure_super *v = all + super_of[column];
       sl_int e;
-      sli_structure_climb(all, /* branches untested: the same */
-          has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
+      sli_structure_climb(all, has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
       e = v->next++;
       from[e] = row[1];
       to[e] = v->to + SLI_TILE * (sl_off)column;
@@ -11501,16 +11504,15 @@ static void sli_fill_panels(const sli_analysis *w, sl_symbolic *S) {
   S->panel_begin[s] = end;
 }
 
-static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
-  sli_structure_super *all = w->supers;
-  sli_structure_count(w, S);
-  sli_structure_sort(w, w->spare, w->scratch);
-  sli_structure_start(w, S, all);
-  if (w->earlier == NULL) {
-    sli_structure_rows(w, S, all, 0);
-  } else {
-    sli_structure_rows(w, S, all, 1);
+static void sli_fill_structure(sli_analysis *w, const sl_symbolic *S) {
+  const sli_range all = {0, w->n, 0, 0};
+  const sl_int count = w->team == NULL ? 1 : sli_shares_count(w->team, w->n);
+  w->S = S;
+  sli_structure_start(w, S);
+  if (count > 1) {
+    sli_range_run(w->team, w->n, count, sli_structure_rows, w);
   }
+  sli_structure_rows(w, &all);
 }
 
 SLI_INLINE int sli_is_mostly_plain(sl_int count, sl_int supers) {
@@ -11981,7 +11983,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   const uint64_t n = (uint64_t)rows;
   size_t begin, end;
   w->n = rows;
-  w->column = SLI_CUT(b, sl_int, nnz);
+  w->column = SLI_CUT(b, sl_int, sli_max(nnz, rows + 1));
   w->perm = SLI_CUT(b, sl_int, rows);
   w->scratch = SLI_CUT(b, sl_int, 5 * n);
   w->septree.node_of = SLI_CUT(b, sl_int, rows);
@@ -12081,7 +12083,7 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
   }
 }
 
-static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
+static int sli_analyze_columns(sli_analysis *w) {
   sl_int *sequence = (sl_int *)(void *)w->list;
   sli_tree_result result;
   sli_tree_job job;
@@ -12092,7 +12094,7 @@ static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
   job.list = w->spare;
   job.scratch = w->scratch;
   job.sequence = NULL;
-  job.keeps_order = keeps_order;
+  job.keeps_order = w->keeps_order;
   result = sli_tree_and_counts(&job);
   if (result == SLI_TREE_TOO_LONG) {
     sli_tree_sequence(&job, sequence, w->list + w->n);
@@ -12102,12 +12104,17 @@ static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
   return result == SLI_TREE_IN_ORDER;
 }
 
-static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
+static void sli_analyze_item(void *data, sl_int item, sl_int worker) {
+  sli_analysis *w = (sli_analysis *)data;
+  const sl_options *opt = w->opt;
   const sl_int n = w->n;
-  const int keeps_order =
-    opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
   sl_int *order = (sl_int *)(void *)w->list;
   sl_int *child = w->scratch, *more = w->scratch + n, *sequence = NULL, k;
+  (void)worker;
+  if (item == 1) {
+    sli_structure_sort(w);
+    return;
+  }
   sli_order_natural(n, w->old_of);
   sli_order_natural(n, w->new_of);
   for (k = 0; k < n && w->choice.has_tree; k++) {
@@ -12115,15 +12122,15 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   }
   if (w->choice.has_tree) {
     sli_find_other_children(n, w->parent, more);
-  } else if (!sli_analyze_columns(w, keeps_order)) {
+  } else if (!w->is_in_order) {
     sli_postorder(w->parent, NULL, n, order, child, more);
     sli_analysis_reorder(w, order);
-    sequence = keeps_order ? w->new_of : NULL;
+    sequence = w->keeps_order ? w->new_of : NULL;
     sli_find_other_children(n, w->parent, more);
   }
   w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
-  stats->symbolic.supernodes_fundamental = w->amalgamation.count;
+  w->found->symbolic.supernodes_fundamental = w->amalgamation.count;
   w->amalgamation.is_large = sli_is_large(w->counts, n);
   w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
   if (w->pairs != NULL) {
@@ -12141,24 +12148,20 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   }
 }
 
+static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
+  sli_team alone = sli_team_of(1);
+  w->opt = opt;
+  w->found = stats;
+  w->keeps_order =
+    opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
+  w->is_in_order = w->choice.has_tree || sli_analyze_columns(w);
+  sli_team_loop(w->team == NULL ? &alone : w->team, 2, NULL, sli_analyze_item, w);
+}
+
 SLI_NOINLINE static double sli_analysis_lap(sli_analysis *w) {
   const double before = w->clock;
   w->clock = sli_seconds_for(w->clock_entries);
   return w->clock - before;
-}
-
-static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
-    sl_stats *stats) {
-  double lap;
-  sl_int k;
-  for (k = 0; k < w->n; k++) {
-    w->scratch[w->perm[k]] = k;
-  }
-  sli_pattern_fill(w, team);
-  sli_analyze_tree(w, opt, stats);
-  lap = sli_analysis_lap(w);
-  stats->symbolic.seconds_tree += lap;
-  stats->symbolic.seconds_analyze += lap;
 }
 
 static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
@@ -12294,14 +12297,17 @@ typedef struct sli_symbolic_job {
   sl_status status;
 } sli_symbolic_job;
 
-static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
+static void sli_symbolic_run(sli_team *team, void *data) {
+  sli_symbolic_job *j = (sli_symbolic_job *)data;
+  sl_symbolic_info *info = &j->found.symbolic;
   sli_analysis *w = &j->w;
   sli_order_job order;
-  sl_status status;
+  sl_symbolic draft;
+  w->team = team;
   SLI_CLEAR(order);
   order.A = w->A;
   order.column = w->column;
-  order.triangle = j->found.symbolic.triangle;
+  order.triangle = info->triangle;
   order.opt = j->opt;
   order.perm = w->perm;
   order.scratch = w->scratch;
@@ -12310,20 +12316,15 @@ static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
   order.team = team;
   order.a = &j->for_order;
   order.stats = &j->found;
-  status = sli_order(&order);
-  j->found.symbolic.seconds_order = sli_analysis_lap(w);
-  return status;
-}
-
-static void sli_symbolic_run(sli_team *team, void *data) {
-  sli_symbolic_job *j = (sli_symbolic_job *)data;
-  sli_analysis *w = &j->w;
-  sl_symbolic draft;
-  j->status = sli_symbolic_order(j, team);
+  j->status = sli_order(&order);
+  info->seconds_order = sli_analysis_lap(w);
   if (j->status != SL_OK) {
     return;
   }
-  sli_analyze_order(w, j->opt, team, &j->found);
+  sli_pattern_fill(w);
+  sli_analyze_tree(w, j->opt, &j->found);
+  info->seconds_tree = sli_analysis_lap(w);
+  info->seconds_analyze += info->seconds_tree;
   sli_clear(&draft, sizeof draft);
   draft.allocator = j->a;
   draft.nnz_input = sli_nnz(w->A);
@@ -12331,7 +12332,7 @@ static void sli_symbolic_run(sli_team *team, void *data) {
   j->status = sli_symbolic_build(j->out, &draft, w, &j->found);
 }
 
-#define SLI_ANALYSIS_FLOPS 100.0
+#define SLI_ANALYSIS_FLOPS 400.0
 
 static sl_int sli_analysis_workers(const sl_csc *A, const sl_options *opt) {
   return opt == NULL || opt->ordering == SL_ORDERING_METIS
@@ -29588,7 +29589,7 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
     }
   }
   for (k = 0; k < j->r.n_entries; k++) {
-    entries += j->r.entry_from[k] != -1;
+    entries += j->r.w.columns.entry[SLI_ENTRY * (size_t)k + 2] != -1;
   }
   status = status == SL_OK ? sli_joint_room(out, &draft, rows, entries, stats) : status;
   if (status == SL_OK) {
