@@ -81,8 +81,7 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
     for (p = sli_pattern_first(w, r); p < end; p++) {
         sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
         entry[0] = moved[p];
-        entry[1] = column[p];
-        entry[2] = p;
+        entry[1] = p;
     }
 }
 

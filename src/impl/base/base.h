@@ -407,7 +407,7 @@ SLI_NOINLINE static double sli_seconds(void) {
 }
 
 /* The same, 0 for work on so few entries that the readings, calls of the system, would take a tenth
- * of its time: an analysis reads five times, a first factor four times, in 0.4 us each. */
+ * of its time: an analysis has five, a first factor four, of 0.4 us. */
 #define SLI_CLOCK_ENTRIES 16000
 SLI_INLINE double sli_seconds_for(int64_t entries) {
     return entries < SLI_CLOCK_ENTRIES ? 0.0 : sli_seconds();

@@ -18,7 +18,7 @@ static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off ro
     sl_status status = SL_OK;
     SLI_LAYOUT(&b, &draft->allocator, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
-        sli_symbolic_layout(draft, &b, rows, entries);
+        sli_symbolic_layout(draft, &b, rows, entries, 0);
         stats->symbolic.bytes = b.used;
     }
     if (status == SL_OK) {
@@ -160,7 +160,6 @@ static void sli_joint_fill_fresh(sl_symbolic *S, const sli_restriction *r, sl_in
 static void sli_joint_complete(sl_symbolic *S, sl_int *scratch, sl_stats *stats) {
     sl_int s;
     sli_fill_steps(S);
-    sli_fill_descendants(S);
     for (s = 0; s < S->n_supers; s++) {
         sli_fill_relative_of(S, s, scratch);
     }
