@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 68a971ec49e5d747
+ * FNV-1a of the lines after this comment, without the license: 54aa45390dee17e1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,24 +37,24 @@
  *   4966 impl/ matrix: sparse matrices of the caller and of the library
  *   5828 impl/ ordering: fill-reducing orderings of a graph
  *  10589 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12828 impl/ factor: the numbers of L and D
- *  15415 impl/ solve: full and local solves
- *  16927 impl/ singular: null spaces of semidefinite matrices
- *  18178 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20217 impl/ pivots: the order of the pivots by the values of a matrix
- *  20621 impl/ float: L in single precision
- *  20804 impl/ inverse: entries of the inverse, regions
- *  23706 impl/ change: a factor that follows changes of its matrix
- *  25976 impl/ constraints: rows held at values, on a factor that stays
- *  27327 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30053 impl/ fixed: rows fixed at given values
- *  30609 impl/ io: files that are replaced only when they are complete
- *  30828 impl/ files: Matrix Market files, 64-bit indices
- *  31384 impl/ save: factors in files
- *  33355 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34039 impl/ complex: complex Hermitian systems over real factors
- *  34507 impl/ packs: the tables through which the core calls packs
- *  34931 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12838 impl/ factor: the numbers of L and D
+ *  15427 impl/ solve: full and local solves
+ *  16939 impl/ singular: null spaces of semidefinite matrices
+ *  18190 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20229 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20633 impl/ float: L in single precision
+ *  20816 impl/ inverse: entries of the inverse, regions
+ *  23718 impl/ change: a factor that follows changes of its matrix
+ *  25988 impl/ constraints: rows held at values, on a factor that stays
+ *  27339 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30059 impl/ fixed: rows fixed at given values
+ *  30615 impl/ io: files that are replaced only when they are complete
+ *  30834 impl/ files: Matrix Market files, 64-bit indices
+ *  31390 impl/ save: factors in files
+ *  33361 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34045 impl/ complex: complex Hermitian systems over real factors
+ *  34513 impl/ packs: the tables through which the core calls packs
+ *  34937 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -657,7 +657,7 @@ typedef struct sl_symbolic_info {
     sl_int components;             /* roots of the elimination tree */
     sl_int pairs;                  /* 2x2 pivots, of sl_symbolic_create_pivoted; else 0 */
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
-    /* of the ordering; all are 0 below 1000 entries of A */
+    /* of the ordering; all are 0 below 4000 entries of A */
     double seconds_order;
     double seconds_analyze;   /* of the rest of the analysis, of which: */
     double seconds_tree;      /* P A P', elimination tree, column counts and supernodes */
@@ -693,7 +693,7 @@ typedef struct sl_factor_info {
     /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
      * is null; 0: not known */
     double null_bound;
-    /* of schedule and memory in sl_factor_create; 0 below 4000 values of L */
+    /* of schedule and memory in sl_factor_create; 0 below 16000 values of L */
     double seconds_setup;
     double seconds; /* of the numbers */
     size_t bytes;
@@ -3131,7 +3131,7 @@ SLI_NOINLINE static double sli_seconds(void) {
 #endif
 }
 
-#define SLI_CLOCK_ENTRIES 4000
+#define SLI_CLOCK_ENTRIES 16000
 SLI_INLINE double sli_seconds_for(int64_t entries) {
   return entries < SLI_CLOCK_ENTRIES ? 0.0 : sli_seconds();
 }
@@ -3560,9 +3560,9 @@ SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
   for (int sli_pass = 0; sli_pass < 2 && (status) == SL_OK; \
       (status) = sli_pass++ == 0 ? sli_block_alloc((b), (a)) : SL_OK)
 
-#define SLI_LAYOUT_SMALL(b, a, small, status) \
-  for (int sli_pass = sli_block_begin((b), (small)); sli_pass < 2 && (status) == SL_OK; \
-      sli_pass += 1 + ((b)->used <= sizeof(small) - SLI_ALIGN), \
+#define SLI_LAYOUT_IN(b, a, room, bytes, status) \
+  for (int sli_pass = sli_block_begin((b), (room)); sli_pass < 2 && (status) == SL_OK; \
+      sli_pass += 1 + ((b)->used <= (bytes) - SLI_ALIGN), \
       (status) = sli_pass == 1 ? sli_block_alloc((b), (a)) : SL_OK)
 
 SLI_INLINE int sli_block_begin(sli_block *b, void *small) {
@@ -5832,7 +5832,7 @@ typedef struct sli_pattern {
   sl_int *entry;
 } sli_pattern;
 
-#define SLI_ENTRY 3
+#define SLI_ENTRY 2
 
 typedef struct sli_graph {
   sl_int n;
@@ -10931,9 +10931,17 @@ static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *othe
   }
 }
 
+#define SLI_ZEROS_MOST 70
+
+#define SLI_LARGE_ENTRIES 200000
+#define SLI_LARGE_COLUMN 16
+#define SLI_ZEROS_MOST_LARGE 40
+#define SLI_ZEROS_MOST_COLUMN 25
+
 static sl_int sli_fundamental_find(sli_amalgamation *g, const sl_int *parent, const sl_int *counts,
     const sl_int *other, int splits) {
   const sl_int n = g->n;
+  sl_off entries = 0;
   sl_int j, s = -1;
   g->first[0] = 0;
   for (j = 0; j < n; j++) {
@@ -10945,55 +10953,34 @@ static sl_int sli_fundamental_find(sli_amalgamation *g, const sl_int *parent, co
     g->first[s + 1] = j;
     s += starts != 0;
     g->super_of[j] = s;
+    entries += counts[j];
   }
   g->first[s + 1] = n;
+  g->is_large = entries >= SLI_LARGE_ENTRIES && entries < SLI_LARGE_COLUMN * (sl_off)n;
   return s + 1;
 }
 
-static int sli_has_root_pairs(const sli_amalgamation *g, const sl_int *counts) {
-  sl_int s;
+static void sli_fundamental(sli_amalgamation *g, const sl_int *parent, const sl_int *counts,
+    const sl_int *other) {
+  sl_int s, count = sli_fundamental_find(g, parent, counts, other, 0);
   int has_odd = 0, has_pair = 0;
-  for (s = 0; s < g->count; s++) {
+  for (s = 0; s < count && g->relaxes; s++) {
     const sl_int width = g->first[s + 1] - g->first[s];
     has_odd |= width & 1;
     has_pair |= (width == 2) & (counts[g->first[s]] == 2);
   }
-  return has_odd & has_pair;
-}
-
-static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts,
-    const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
-  sl_int s;
-  g->n = n;
-  g->super_of = super_of;
-  g->count = sli_fundamental_find(g, parent, counts, other, 0);
-  if (g->relaxes && sli_has_root_pairs(g, counts)) {
-    g->count = sli_fundamental_find(g, parent, counts, other, 1);
+  if (has_odd && has_pair) {
+    count = sli_fundamental_find(g, parent, counts, other, 1);
   }
-  for (s = 0; s < g->count; s++) {
+  g->count = count;
+  for (s = 0; s < count; s++) {
     const sl_int last = g->first[s + 1] - 1;
     g->width[s] = g->first[s + 1] - g->first[s];
     g->below[s] = counts[last] - 1;
-    g->parent[s] = parent[last] == -1 ? -1 : super_of[parent[last]];
+    g->parent[s] = parent[last] == -1 ? -1 : g->super_of[parent[last]];
     g->zeros[s] = 0;
     g->merged_into[s] = s;
   }
-}
-
-#define SLI_ZEROS_MOST 70
-
-#define SLI_LARGE_ENTRIES 200000
-#define SLI_LARGE_COLUMN 16
-#define SLI_ZEROS_MOST_LARGE 40
-#define SLI_ZEROS_MOST_COLUMN 25
-
-static int sli_is_large(const sl_int *counts, sl_int n) {
-  sl_off entries = 0;
-  sl_int k;
-  for (k = 0; k < n; k++) {
-    entries += counts[k];
-  }
-  return entries >= SLI_LARGE_ENTRIES && entries < SLI_LARGE_COLUMN * (sl_off)n;
 }
 
 SLI_INLINE sl_off sli_zeros_most(const sli_amalgamation *g, sl_int c) {
@@ -11135,6 +11122,10 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
 #define SLI_SORTED_ROWS 255
 #define SLI_SORTED_LEAF 24
 
+SLI_INLINE int sli_is_sorted_sibling(const sli_amalgamation *g, sl_int s, sl_int children) {
+  return g->width[s] == 1 || (children == 0 && g->below[s] >= SLI_SORTED_LEAF);
+}
+
 static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *top,
     const sl_int *tree, sl_int count, sl_int *children,
     sl_int *order) {
@@ -11142,25 +11133,23 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
   if (count <= SLI_SORTED_CHILDREN) {
     return NULL;
   }
-  for (s = 0; s < count; s++) {
-    children[s] = -(g->below[top[s]] >= SLI_SORTED_LEAF);
-  }
-  memset(begin, 0, sizeof begin);
+  SLI_ZERO(children, count);
   for (s = 0; s < count; s++) {
     if (tree[s] != -1) {
-      children[tree[s]] = 0;
+      sl_int *up = &children[tree[s]];
+      *up = (*up | 1) + 2 * sli_is_sorted_sibling(g, top[s], children[s]);
+      most = sli_max(most, *up);
     }
   }
-  for (s = 0; s < count; s++) {
-    if (tree[s] != -1 && (g->width[top[s]] == 1 || children[s] == -1)) {
-      most = sli_max(most, ++children[tree[s]]);
-    }
+  if (most < 2 * SLI_SORTED_CHILDREN) {
+    return NULL;
   }
-  for (pass = 0; pass < 2 && most >= SLI_SORTED_CHILDREN; pass++) {
+  memset(begin, 0, sizeof begin);
+  for (pass = 0; pass < 2; pass++) {
     for (s = 0; s < count; s++) {
       const int is_sorted = tree[s] != -1 &&
-                  (g->width[top[s]] == 1 || children[s] == -1) &&
-                  children[tree[s]] >= SLI_SORTED_CHILDREN;
+                  children[tree[s]] >= 2 * SLI_SORTED_CHILDREN &&
+                  sli_is_sorted_sibling(g, top[s], children[s]);
       k = is_sorted ? sli_min(g->below[top[s]], SLI_SORTED_ROWS) : 0;
       if (pass == 0) {
         begin[k + 1]++;
@@ -11172,11 +11161,11 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
       begin[k + 1] += begin[k];
     }
   }
-  return most >= SLI_SORTED_CHILDREN ? order : NULL;
+  return order;
 }
 
-static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl_int *order,
-    sl_int *scratch) {
+static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, int is_postorder,
+    sl_int *order, sl_int *scratch) {
   const sl_int n = g->n;
   sl_int *super_of = g->super_of, *top = scratch, *tree = scratch + n,
        *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n,
@@ -11185,9 +11174,16 @@ static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl
   const sl_int *siblings =
     sequence == NULL ? sli_sort_siblings(g, top, tree, count, at, order) : NULL;
   sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
-  sli_postorder(tree, siblings, count, post, at, number);
+  if (is_postorder && siblings == NULL) {
+    sli_order_natural(count, post);
+    number = post;
+  } else {
+    sli_postorder(tree, siblings, count, post, at, number);
+    for (k = 0; k < count; k++) {
+      number[post[k]] = k;
+    }
+  }
   for (k = 0; k < count; k++) {
-    number[post[k]] = k;
     at[k] = column;
     column += g->width[top[post[k]]];
   }
@@ -11363,8 +11359,7 @@ static void sli_pattern_fill_item(void *data, const sli_range *r) {
   for (p = r->first; p < r->last; p++) {
     sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
     entry[0] = moved[p];
-    entry[1] = column[p];
-    entry[2] = p;
+    entry[1] = p;
   }
 }
 
@@ -11395,51 +11390,66 @@ typedef struct sli_structure_super {
   sl_int height;
   sl_int width;
   sl_int up;
-  sl_int bottom;
-  sl_int next;
 } sli_structure_super;
 
+static void sli_structure_count(const sli_analysis *w, const sl_symbolic *S) {
+  const sl_int *begin = w->columns.begin, *old_of = w->old_of, *super_of = S->super_of;
+  sl_off *starts = S->scatter_begin, total = 0;
+  sl_int k;
+  for (k = w->n - 1; k >= 0; k--) {
+    total += begin[old_of[k] + 1] - begin[old_of[k]];
+    starts[super_of[k] + 1] = begin[w->n] - total;
+  }
+  starts[0] = 0;
+}
+
 static void sli_structure_sort(const sli_analysis *w) {
-  const sl_int *begin = w->columns.entry, *entry;
-  const sl_int *end = begin + SLI_ENTRY * (size_t)w->columns.begin[w->n];
-  sl_int k, total = 0, *at = w->column + 1;
+  const sl_int *begin = w->columns.begin, *entry = w->columns.entry;
+  sl_int k, total = 0, p = 0, *at = w->column + 1;
   SLI_ZERO(w->column, w->n + 1);
-  for (entry = begin; entry < end; entry += SLI_ENTRY) {
-    at[entry[0]]++;
+  for (; p < begin[w->n]; p++) {
+    at[entry[SLI_ENTRY * (size_t)p]]++;
   }
   for (k = 0; k < w->n; k++) {
     total += at[k];
     at[k] = total - at[k];
   }
-  for (entry = begin; entry < end; entry += SLI_ENTRY) {
-    sl_int *here = w->spare + 2 * (size_t)at[entry[0]]++;
-    here[0] = entry[1];
-    here[1] = entry[2];
+  for (k = 0; k < w->n; k++) {
+    const sl_int *end = w->columns.entry + SLI_ENTRY * (size_t)begin[k + 1];
+    for (; entry < end; entry += SLI_ENTRY) {
+      sl_int *here = w->spare + 2 * (size_t)at[entry[0]]++;
+      here[0] = k;
+      here[1] = entry[1];
+    }
   }
 }
 
 static void sli_structure_start(const sli_analysis *w, const sl_symbolic *S) {
-  const sl_int *begin = w->columns.begin, *old_of = w->old_of;
-  sl_off *end = S->scatter_begin + 1, total = 0;
-  sli_structure_super *all = w->supers;
+  const sli_amalgamation *g = &w->amalgamation;
+  sl_off rows = 0, panel = 0;
   sl_int s;
-  end[-1] = 0;
-  for (s = 0; s < w->n; s++) {
-    total += begin[old_of[s] + 1] - begin[old_of[s]];
-    end[S->super_of[s]] = total;
-  }
   for (s = 0; s < S->n_supers; s++) {
-    sli_structure_super *v = &all[s];
-    const sl_int first = S->super_first[s];
-    v->width = S->super_first[s + 1] - first;
-    v->to = S->panel_begin[s] - SLI_TILE * (sl_off)first + SLI_TILE - 1;
-    v->rows = S->rows_begin[s] - v->width;
+    sli_structure_super *v = &w->supers[s];
+    const sl_int first = g->first[s], width = g->width[s];
+    panel = sli_panel_start(width, panel);
+    S->super_first[s] = first;
+    S->super_parent[s] = v->up = g->parent[s];
+    S->rows_begin[s] = rows;
+    S->panel_begin[s] = panel;
+    v->width = width;
+    v->to = panel - SLI_TILE * (sl_off)first + SLI_TILE - 1;
+    v->rows = rows - width;
     v->last = -1;
     v->height = 0;
-    v->up = S->super_parent[s];
-    v->bottom = w->earlier == NULL || w->earlier[s] == -1 ? s : all[w->earlier[s]].bottom;
-    v->next = (sl_int)S->scatter_begin[s];
+    rows += g->below[s];
+    panel += sli_panel_size(width, g->below[s]);
+    if (w->earlier != NULL) {
+      w->earlier[s] = w->earlier[s] == -1 ? s : w->earlier[w->earlier[s]];
+    }
   }
+  S->super_first[s] = w->n;
+  S->rows_begin[s] = rows;
+  S->panel_begin[s] = panel;
 }
 
 SLI_ALWAYS_INLINE void sli_structure_add(sli_structure_super *v, sl_int k) {
@@ -11452,24 +11462,23 @@ SLI_ALWAYS_INLINE void sli_structure_add(sli_structure_super *v, sl_int k) {
 
 SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structure_super *v,
     sl_int k, sl_int *rows, sl_int *relative,
-    int has_parts) {
+    const sl_int *bottom) {
   while (v->last != k) {
     sli_structure_super *up = all + v->up;
     const sl_off at = v->rows + v->height;
     rows[at] = k;
     relative[at] = up->height - (up->last == k);
     sli_structure_add(v, k);
-    v = has_parts && up->bottom != v->bottom ? all + up->bottom : up;
+    v = bottom != NULL && bottom[up - all] != bottom[v - all] ? all + bottom[up - all] : up;
   }
 }
 
 static void sli_structure_rows(void *data, const sli_range *r) {
   const sli_analysis *w = (const sli_analysis *)data;
   const sl_symbolic *S = w->S;
-  const sl_int *super_of = S->super_of, *new_of = w->new_of, *row;
-  const int has_parts = w->earlier != NULL;
+  const sl_int *super_of = S->super_of, *new_of = w->new_of, *bottom = w->earlier, *row;
   sl_int *rows = S->rows, *relative = S->relative, *from = S->scatter_from, k;
-  sl_off *to = S->scatter_to;
+  sl_off *to = S->scatter_to, *next = S->scatter_begin + 1;
   sli_structure_super *all = w->supers;
   for (k = r->first; k < r->last; k++) {
     const sl_int *begin = w->column + w->old_of[k];
@@ -11480,35 +11489,42 @@ static void sli_structure_rows(void *data, const sli_range *r) {
       continue;
     }
     sli_structure_add(own, k);
-    sli_structure_climb(all, all + own->bottom, k, rows, relative, has_parts);
+    if (bottom != NULL) {
+      sli_structure_climb(all, all + bottom[super_of[k]], k, rows, relative, bottom);
+    }
     for (row = w->spare + 2 * (size_t)begin[0]; row < end; row += 2) {
-      const sl_int column = new_of[row[0]];
-      sli_structure_super *v = all + super_of[column];
-      sl_int e;
-      sli_structure_climb(all, has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
-      e = v->next++;
+      const sl_int column = new_of[row[0]], s = super_of[column];
+      sli_structure_super *v = all + s;
+      sl_off e;
+      sli_structure_climb(all, bottom != NULL ? all + bottom[s] : v, k, rows, relative,
+          bottom);
+      e = next[s]++;
       from[e] = row[1];
       to[e] = v->to + SLI_TILE * (sl_off)column;
     }
   }
 }
 
-static void sli_fill_panels(const sli_analysis *w, sl_symbolic *S) {
-  const sli_amalgamation *g = &w->amalgamation;
-  sl_off end = 0;
-  sl_int s;
+static void sli_fill_descendants(const sl_symbolic *S) {
+  sl_int *low = S->first_descendant, s;
+  sli_order_natural(S->n_supers, low);
   for (s = 0; s < S->n_supers; s++) {
-    S->panel_begin[s] = sli_panel_start(g->width[s], end);
-    end = S->panel_begin[s] + sli_panel_size(g->width[s], g->below[s]);
+    const sl_int up = S->super_parent[s];
+    if (up != -1) {
+      low[up] = sli_min(low[up], low[s]);
+    }
   }
-  S->panel_begin[s] = end;
 }
 
-static void sli_fill_structure(sli_analysis *w, const sl_symbolic *S) {
+SLI_NOINLINE static void sli_fill_structure(sli_analysis *w, const sl_symbolic *S) {
   const sli_range all = {0, w->n, 0, 0};
   const sl_int count = w->team == NULL ? 1 : sli_shares_count(w->team, w->n);
   w->S = S;
+  sli_structure_count(w, S);
   sli_structure_start(w, S);
+  if (S->first_descendant != NULL) {
+    sli_fill_descendants(S);
+  }
   if (count > 1) {
     sli_range_run(w->team, w->n, count, sli_structure_rows, w);
   }
@@ -11548,19 +11564,6 @@ static void sli_fill_steps(sl_symbolic *S) {
     step->up = S->super_parent[s];
     S->widest = sli_max(S->widest, step->width);
     S->tallest = sli_max(S->tallest, step->width + step->below);
-  }
-}
-
-static void sli_fill_descendants(sl_symbolic *S) {
-  sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    S->first_descendant[s] = s;
-  }
-  for (s = 0; s < S->n_supers; s++) {
-    const sl_int up = S->super_parent[s];
-    if (up != -1) {
-      S->first_descendant[up] = sli_min(S->first_descendant[up], S->first_descendant[s]);
-    }
   }
 }
 
@@ -11923,13 +11926,17 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
   sli_plan_stacks(p, S, w->side, (sl_off *)(void *)w->flops, (sl_off *)(void *)w->path);
 }
 
+SLI_INLINE sl_int *sli_after(sl_int *array, sl_int count) {
+  return array == NULL ? NULL : array + count;
+}
+
 static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
   const sl_int tasks = p->workers == 1 ? 1 : count;
-  p->first = SLI_CUT(b, sl_int, tasks);
-  p->last = SLI_CUT(b, sl_int, tasks);
-  p->worker = SLI_CUT(b, sl_int, tasks);
-  p->bundle_end = SLI_CUT(b, sl_int, tasks);
-  p->top = SLI_CUT(b, sl_int, p->workers == 1 ? 0 : count);
+  p->first = SLI_CUT(b, sl_int, 5 * (uint64_t)tasks);
+  p->last = sli_after(p->first, tasks);
+  p->worker = sli_after(p->last, tasks);
+  p->bundle_end = sli_after(p->worker, tasks);
+  p->top = sli_after(p->bundle_end, tasks);
   p->stack_begin = SLI_CUT(b, sl_off, count);
   p->is_plain = SLI_CUT(b, unsigned char, count);
 }
@@ -11962,14 +11969,16 @@ static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
   }
 }
 
-static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
+SLI_NOINLINE static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
     sl_int workers) {
-  w->flops = SLI_CUT(b, double, count);
-  w->path = SLI_CUT(b, double, count);
-  w->load = SLI_CUT(b, double, workers);
   w->side = SLI_CUT(b, sl_int, count);
-  w->order = SLI_CUT(b, uint64_t, count);
-  w->scratch = SLI_CUT(b, uint64_t, count);
+  w->flops = w->path = SLI_CUT(b, double, count);
+  if (workers > 1) {
+    w->path = SLI_CUT(b, double, count);
+    w->load = SLI_CUT(b, double, workers);
+    w->order = SLI_CUT(b, uint64_t, count);
+    w->scratch = SLI_CUT(b, uint64_t, count);
+  }
 }
 
 /* src/impl/analysis/symbolic_build.h: from an order of the rows to the analysis: tree, supernodes, all arrays */
@@ -11979,7 +11988,8 @@ SLI_INLINE void sli_next_phase(sli_block *b, size_t begin, size_t *end) {
   b->used = begin;
 }
 
-static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
+SLI_NOINLINE static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows,
+    sl_int nnz) {
   const uint64_t n = (uint64_t)rows;
   size_t begin, end;
   w->n = rows;
@@ -12004,11 +12014,11 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   begin = end = b->used;
   w->room = SLI_CUT(b, sl_int, SLI_ANALYSIS_ROOM(n) * (uint64_t)sli_max(w->workers, 1));
   sli_next_phase(b, begin, &end);
-  w->list = SLI_CUT(b, uint64_t, 2 * n);
   w->amalgamation.zeros = SLI_CUT(b, sl_off, rows);
   w->amalgamation.cost = SLI_CUT(b, sl_off, rows);
   w->amalgamation.merged_into = SLI_CUT(b, sl_int, rows);
   w->amalgamation.apart = SLI_CUT(b, sl_int, rows);
+  w->list = SLI_CUT(b, uint64_t, 2 * n);
   sli_next_phase(b, begin, &end);
   w->supers = SLI_CUT(b, sli_structure_super, rows);
   b->used = b->used > end ? b->used : end;
@@ -12020,13 +12030,14 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->spare = SLI_CUT(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
-static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
+static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries,
+    int shares) {
   const sl_int n = S->n, supers = S->n_supers;
   S->perm = SLI_CUT(b, sl_int, n);
   S->iperm = SLI_CUT(b, sl_int, n);
   S->parent = SLI_CUT(b, sl_int, n);
   S->counts = SLI_CUT(b, sl_int, n);
-  S->super_of = SLI_CUT(b, sl_int, n);
+  S->super_of = SLI_CUT(b, sl_int, shares ? 0 : n);
   S->super_first = SLI_CUT(b, sl_int, supers + 1);
   S->super_parent = SLI_CUT(b, sl_int, supers);
   S->rows_begin = SLI_CUT(b, sl_off, supers + 1);
@@ -12112,6 +12123,9 @@ static void sli_analyze_item(void *data, sl_int item, sl_int worker) {
   sl_int *child = w->scratch, *more = w->scratch + n, *sequence = NULL, k;
   (void)worker;
   if (item == 1) {
+    if (w->team != NULL && w->team->workers == 1 && w->columns.begin[n] / 5 < n) {
+      w->spare = (sl_int *)(void *)w->amalgamation.zeros;
+    }
     sli_structure_sort(w);
     return;
   }
@@ -12129,9 +12143,10 @@ static void sli_analyze_item(void *data, sl_int item, sl_int worker) {
     sli_find_other_children(n, w->parent, more);
   }
   w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
-  sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
+  w->amalgamation.n = n;
+  w->amalgamation.super_of = w->super_of;
+  sli_fundamental(&w->amalgamation, w->parent, w->counts, more);
   w->found->symbolic.supernodes_fundamental = w->amalgamation.count;
-  w->amalgamation.is_large = sli_is_large(w->counts, n);
   w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
   if (w->pairs != NULL) {
     sli_analysis_tie(w);
@@ -12140,7 +12155,8 @@ static void sli_analyze_item(void *data, sl_int item, sl_int worker) {
   if (w->amalgamation.merges) {
     sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
   }
-  if (sli_number_supernodes(&w->amalgamation, sequence, order, w->scratch)) {
+  if (sli_number_supernodes(&w->amalgamation, sequence, !w->keeps_order, order,
+      w->scratch)) {
     sli_analysis_reorder(w, order);
   }
   if (w->pairs != NULL) {
@@ -12212,7 +12228,7 @@ static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
 
 static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) {
   const size_t bytes = (size_t)S->n * sizeof(sl_int);
-  sl_int s, k;
+  sl_int k;
   for (k = 0; k < S->n; k++) {
     S->perm[k] = w->perm[w->old_of[k]];
     S->iperm[S->perm[k]] = k;
@@ -12220,19 +12236,12 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
   sli_copy(S->parent, w->parent, bytes);
   memcpy(S->counts, w->counts, bytes);
   memcpy(S->super_of, w->super_of, bytes);
-  SLI_COPY(S->super_first, w->amalgamation.first, S->n_supers + 1);
-  SLI_COPY(S->super_parent, w->amalgamation.parent, S->n_supers);
-  S->rows_begin[0] = 0;
-  for (s = 0; s < S->n_supers; s++) {
-    S->rows_begin[s + 1] = S->rows_begin[s] + w->amalgamation.below[s];
-  }
-  sli_fill_panels(w, S);
   for (k = 0; k < S->n && S->n_pairs > 0; k++) {
     S->pairs[k] = w->is_first[k] ? SLI_PAIR_FIRST
             : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
                           : SLI_PAIR_NONE;
   }
-  sli_fill_descendants(S);
+  w->supers = (sli_structure_super *)(void *)S->steps;
   sli_fill_structure(w, S);
   sli_fill_steps(S);
   sli_fill_plain(S);
@@ -12265,10 +12274,10 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   }
   SLI_LAYOUT(&b, &draft->allocator, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
-    sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
+    sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a, draft->n_supers == w->n);
     if (sli_is_mostly_plain(plain, draft->n_supers)) {
       draft->plain = SLI_CUT(&b, sl_int, draft->n_supers);
-      if (draft->nnz_input > 0) {
+      if (draft->nnz_input > 0 && !w->amalgamation.is_for_one_factor) {
         draft->input = SLI_CUT(&b, sl_int, (sl_off)w->n + 1 + draft->nnz_input);
       }
     }
@@ -12277,6 +12286,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   if (status != SL_OK) {
     return status;
   }
+  draft->super_of = draft->n_supers == w->n ? draft->super_first : draft->super_of;
   sli_symbolic_fill(draft, w, stats);
   stats->symbolic.seconds_structure = sli_analysis_lap(w);
   stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
@@ -12385,7 +12395,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   j.w.A = A;
   j.w.pairs = pairs;
   j.w.workers = sli_analysis_workers(A, opt);
-  SLI_LAYOUT_SMALL(&b, &j.a, small, status) {
+  SLI_LAYOUT_IN(&b, &j.a, small, sizeof small, status) {
     sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
   }
   if (status == SL_OK) {
@@ -14591,21 +14601,26 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
   }
 }
 
-static sl_status sli_factor_prepare(sl_factor *F) {
+static sl_status sli_factor_prepare(sl_factor *F, int is_new) {
   const sl_symbolic *S = F->S;
   const int has_fronts = F->method == SL_METHOD_SUPERNODAL;
   sli_schedule plan = F->schedule, p = plan;
   sli_block b = {NULL, 0}, t = {NULL, 0};
   sli_schedule_work w;
   uint64_t small[512];
-  size_t planned = 0;
+  void *room = small;
+  size_t planned = 0, bytes = sizeof small;
   sl_status status = SL_OK;
   if (F->scratch != NULL) {
     return SL_OK;
   }
+  if (is_new && (size_t)S->n_supers * sizeof *F->extents > bytes) {
+    room = F->extents;
+    bytes = (size_t)S->n_supers * sizeof *F->extents;
+  }
   SLI_CLEAR(w);
   if (has_fronts) {
-    SLI_LAYOUT_SMALL(&t, &F->allocator, small, status) {
+    SLI_LAYOUT_IN(&t, &F->allocator, room, bytes, status) {
       sli_schedule_layout(&plan, &t, S->n_supers);
       planned = t.used;
       sli_schedule_work_layout(&w, &t, S->n_supers, plan.workers);
@@ -14641,7 +14656,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   } else {
     F->history.marks = NULL;
   }
-  sli_block_free(&t, &F->allocator, small);
+  sli_block_free(&t, &F->allocator, room);
   return status;
 }
 
@@ -14719,20 +14734,17 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
 
 static int sli_updates_exceed(const sl_symbolic *S) {
   const double room = 8.0 * (double)S->panel_begin[S->n_supers];
-  const sl_off most = room > 1e6 ? (sl_off)room : 1000000;
-  const sl_int children = S->n_supers - S->stats.symbolic.components;
-  sli_step tallest;
-  sl_off sum = 0;
+  const double most = room > 1e6 ? room : 1e6, height = 16.0 + S->tallest;
+  const sl_int *low = S->first_descendant;
+  double sum = 0.0;
   sl_int s, c;
-  tallest.width = SLI_TILE - 1;
-  tallest.below = S->tallest;
-  if ((double)sli_update_size(&tallest) * children <= (double)most) {
+  if (height * height * S->n_supers <= most) {
     return 0;
   }
-  for (s = 0; s < S->n_supers && sum <= most; s++) {
-    sum = 0;
-    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-      sum += sli_is_plain(S, c) ? 0 : sli_update_size(&S->steps[c]);
+  for (s = 1; s < S->n_supers && sum <= most; s++) {
+    sum = 0.0;
+    for (c = s - 1; c >= low[s] && low[s - 1] > low[s]; c = low[c] - 1) {
+      sum += sli_is_plain(S, c) ? 0.0 : (double)sli_update_size(&S->steps[c]);
     }
   }
   return sum > most;
@@ -14790,7 +14802,7 @@ SLI_INLINE double sli_factor_clock(const sl_symbolic *S) {
 static void sli_factor_clear_gaps(sl_factor *F) {
   const sli_step *step = F->S->steps, *last = step + F->S->n_supers;
   const sl_off *next = F->S->panel_begin;
-  for (; step < last; step++) {
+  for (; step < last && F->S->widest > 1; step++) {
     const sl_off end = step->panel + 1 + step->below;
     next++;
     if (step->width == 1 && end < *next) {
@@ -14844,12 +14856,12 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     sl_factor *F = (sl_factor *)(void *)b.base;
     sli_copy(F, &draft, sizeof draft);
     sli_borrow(&S->borrowers);
-    sli_clear(F->extents, (size_t)S->n_supers * sizeof *F->extents);
     sli_factor_clear_gaps(F);
     if (F->E != NULL) {
       SLI_ZERO(F->E, S->n);
     }
-    status = sli_factor_prepare(F);
+    status = sli_factor_prepare(F, 1);
+    sli_clear(F->extents, (size_t)S->n_supers * sizeof *F->extents);
     status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
     F->stats.factor.seconds_setup = sli_factor_clock(S) - started;
     if (status == SL_OK) {
@@ -15239,7 +15251,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
   status = sli_argument(F == NULL ? "F is NULL" : NULL);
   status = status == SL_OK ? sli_factor_may_change(F) : status;
   status = status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
-  status = status == SL_OK ? sli_factor_prepare(F) : status;
+  status = status == SL_OK ? sli_factor_prepare(F, 0) : status;
   if (status == SL_OK) {
     sli_factor_begin(F);
     status = sli_factor_numbers(F, &from, sli_factor_clock(F->S), stats);
@@ -24156,7 +24168,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
   if (!sli_reached_is_suited(F) || entries >= (uint64_t)sli_nnz(A)) {
     return sl_factor_refactor(F, A, stats);
   }
-  status = sli_factor_prepare(F);
+  status = sli_factor_prepare(F, 0);
   SLI_LAYOUT(&b, &F->allocator, status) {
     from = SLI_TAKE(&b, sl_int, F->S->n_supers);
   }
@@ -27845,8 +27857,7 @@ static void sli_restriction_sort(sli_restriction *r) {
     const sl_int a = r->entry_row[e], b = r->entry_column[e], column = sli_min(a, b);
     sl_int *entry = columns->entry + SLI_ENTRY * (size_t)at[column]++;
     entry[0] = a + b - column;
-    entry[1] = column;
-    entry[2] = r->entry_from[e];
+    entry[1] = r->entry_from[e];
   }
 }
 
@@ -27891,11 +27902,6 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
   if (status != SL_OK) {
     return status;
   }
-  T->rows_begin[0] = 0;
-  for (t = 0; t < T->n_supers; t++) {
-    T->rows_begin[t + 1] = T->rows_begin[t] + w->amalgamation.below[t];
-  }
-  sli_fill_panels(w, T);
   sli_fill_structure(w, T);
   return SL_OK;
 }
@@ -27924,7 +27930,7 @@ static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off ro
   sl_status status = SL_OK;
   SLI_LAYOUT(&b, &draft->allocator, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
-    sli_symbolic_layout(draft, &b, rows, entries);
+    sli_symbolic_layout(draft, &b, rows, entries, 0);
     stats->symbolic.bytes = b.used;
   }
   if (status == SL_OK) {
@@ -29589,7 +29595,7 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
     }
   }
   for (k = 0; k < j->r.n_entries; k++) {
-    entries += j->r.w.columns.entry[SLI_ENTRY * (size_t)k + 2] != -1;
+    entries += j->r.w.columns.entry[SLI_ENTRY * (size_t)k + 1] != -1;
   }
   status = status == SL_OK ? sli_joint_room(out, &draft, rows, entries, stats) : status;
   if (status == SL_OK) {
@@ -32831,7 +32837,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   sli_block b = {NULL, 0};
   sli_image m;
   sl_status status;
-  sli_symbolic_layout(S, &b, a->rows, a->entries);
+  sli_symbolic_layout(S, &b, a->rows, a->entries, 0);
   m.first = r->saved.first_array;
   m.last = r->saved.first_number;
   m.head = sizeof *S + (r->is_mapped ? 0 : (size_t)S->n_supers * sizeof(sl_int));
@@ -32845,7 +32851,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   }
   b.base = m.arrays;
   b.used = 0;
-  sli_symbolic_layout(S, &b, a->rows, a->entries);
+  sli_symbolic_layout(S, &b, a->rows, a->entries, 0);
   S->allocator = r->allocator;
   S->stats.symbolic.bytes = m.head + m.bytes;
   S->is_partial = r->saved.header.write_version > SLI_WRITE_VERSION;
@@ -34014,7 +34020,7 @@ SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count
     status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
   }
   for (k = 0; k < count && status == SL_OK; k++) {
-    status = sli_factor_prepare(factors[k]);
+    status = sli_factor_prepare(factors[k], 0);
     at = status == SL_OK ? -1 : k;
   }
   if (status == SL_OK && count > 0) {
@@ -34616,7 +34622,7 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_PAGE
 #undef SLI_SMALL_PAGE
 #undef SLI_LAYOUT
-#undef SLI_LAYOUT_SMALL
+#undef SLI_LAYOUT_IN
 #undef SLI_TAKE
 #undef SLI_TAKE_INLINE
 #undef SLI_CUT

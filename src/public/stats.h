@@ -31,7 +31,7 @@ typedef struct sl_symbolic_info {
     sl_int components;             /* roots of the elimination tree */
     sl_int pairs;                  /* 2x2 pivots, of sl_symbolic_create_pivoted; else 0 */
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
-    /* of the ordering; all are 0 below 1000 entries of A */
+    /* of the ordering; all are 0 below 4000 entries of A */
     double seconds_order;
     double seconds_analyze;   /* of the rest of the analysis, of which: */
     double seconds_tree;      /* P A P', elimination tree, column counts and supernodes */
@@ -67,7 +67,7 @@ typedef struct sl_factor_info {
     /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
      * is null; 0: not known */
     double null_bound;
-    /* of schedule and memory in sl_factor_create; 0 below 4000 values of L */
+    /* of schedule and memory in sl_factor_create; 0 below 16000 values of L */
     double seconds_setup;
     double seconds; /* of the numbers */
     size_t bytes;

@@ -79,8 +79,7 @@ static void sli_pattern_fill_item(void *data, const sli_range *r) {
     for (p = r->first; p < r->last; p++) {
         sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
         entry[0] = moved[p];
-        entry[1] = column[p];
-        entry[2] = p;
+        entry[1] = p;
     }
 }
 

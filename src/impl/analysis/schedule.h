@@ -177,13 +177,18 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
     sli_plan_stacks(p, S, w->side, (sl_off *)(void *)w->flops, (sl_off *)(void *)w->path);
 }
 
+/* The next array; NULL while counting. */
+SLI_INLINE sl_int *sli_after(sl_int *array, sl_int count) {
+    return array == NULL ? NULL : array + count;
+}
+
 static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
     const sl_int tasks = p->workers == 1 ? 1 : count;
-    p->first = SLI_CUT(b, sl_int, tasks);
-    p->last = SLI_CUT(b, sl_int, tasks);
-    p->worker = SLI_CUT(b, sl_int, tasks);
-    p->bundle_end = SLI_CUT(b, sl_int, tasks);
-    p->top = SLI_CUT(b, sl_int, p->workers == 1 ? 0 : count);
+    p->first = SLI_CUT(b, sl_int, 5 * (uint64_t)tasks); /* and the next four */
+    p->last = sli_after(p->first, tasks);
+    p->worker = sli_after(p->last, tasks);
+    p->bundle_end = sli_after(p->worker, tasks);
+    p->top = sli_after(p->bundle_end, tasks);
     p->stack_begin = SLI_CUT(b, sl_off, count);
     p->is_plain = SLI_CUT(b, unsigned char, count);
 }
@@ -217,14 +222,16 @@ static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
     }
 }
 
-static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
-                                     sl_int workers) {
-    w->flops = SLI_CUT(b, double, count);
-    w->path = SLI_CUT(b, double, count);
-    w->load = SLI_CUT(b, double, workers);
+SLI_NOINLINE static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
+                                                  sl_int workers) {
     w->side = SLI_CUT(b, sl_int, count);
-    w->order = SLI_CUT(b, uint64_t, count);
-    w->scratch = SLI_CUT(b, uint64_t, count);
+    w->flops = w->path = SLI_CUT(b, double, count); /* one worker has one task, and no tops */
+    if (workers > 1) {
+        w->path = SLI_CUT(b, double, count);
+        w->load = SLI_CUT(b, double, workers);
+        w->order = SLI_CUT(b, uint64_t, count);
+        w->scratch = SLI_CUT(b, uint64_t, count);
+    }
 }
 
 #endif

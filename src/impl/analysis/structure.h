@@ -4,7 +4,7 @@
 
 #include "pattern.h"
 
-/* A supernode while its rows are found: 40 bytes. */
+/* A supernode while its rows are found: 32 bytes, where its step will be. */
 typedef struct sli_structure_super {
     sl_off to;     /* an entry of the last row in column k goes to this position + 8 k */
     sl_off rows;   /* where local row 0 would be in S->rows */
@@ -12,55 +12,71 @@ typedef struct sli_structure_super {
     sl_int height; /* local rows so far */
     sl_int width;  /* columns */
     sl_int up;     /* the parent */
-    sl_int bottom; /* the first part, if it is a part of a supernode that was split, or itself */
-    sl_int next;   /* where the next entry goes in the map */
 } sli_structure_super;
+
+/* Fills scatter_begin, one place behind: where the entries of each supernode begin. */
+static void sli_structure_count(const sli_analysis *w, const sl_symbolic *S) {
+    const sl_int *begin = w->columns.begin, *old_of = w->old_of, *super_of = S->super_of;
+    sl_off *starts = S->scatter_begin, total = 0;
+    sl_int k;
+    for (k = w->n - 1; k >= 0; k--) { /* its first column writes last: without branches */
+        total += begin[old_of[k] + 1] - begin[old_of[k]];
+        starts[super_of[k] + 1] = begin[w->n] - total;
+    }
+    starts[0] = 0;
+}
 
 /* Sorts the entries of A by rows, all by old numbers: spare := column and position in A; column :=
  * where rows begin. Within a row they keep the order of the columns: duplicates are neighbors. */
 static void sli_structure_sort(const sli_analysis *w) {
-    const sl_int *begin = w->columns.entry, *entry;
-    const sl_int *end = begin + SLI_ENTRY * (size_t)w->columns.begin[w->n];
-    sl_int k, total = 0, *at = w->column + 1;
+    const sl_int *begin = w->columns.begin, *entry = w->columns.entry;
+    sl_int k, total = 0, p = 0, *at = w->column + 1;
     SLI_ZERO(w->column, w->n + 1);
-    for (entry = begin; entry < end; entry += SLI_ENTRY) {
-        at[entry[0]]++;
+    for (; p < begin[w->n]; p++) {
+        at[entry[SLI_ENTRY * (size_t)p]]++;
     }
     for (k = 0; k < w->n; k++) {
         total += at[k];
         at[k] = total - at[k];
     }
-    for (entry = begin; entry < end; entry += SLI_ENTRY) {
-        sl_int *here = w->spare + 2 * (size_t)at[entry[0]]++;
-        here[0] = entry[1];
-        here[1] = entry[2];
+    for (k = 0; k < w->n; k++) {
+        const sl_int *end = w->columns.entry + SLI_ENTRY * (size_t)begin[k + 1];
+        for (; entry < end; entry += SLI_ENTRY) {
+            sl_int *here = w->spare + 2 * (size_t)at[entry[0]]++;
+            here[0] = k;
+            here[1] = entry[1];
+        }
     }
 }
 
-/* Fills scatter_begin: sums of the numbers of entries of A in each supernode's columns. Starts all
- * supernodes. Their first rows will be in the first tiles. */
+/* Fills what follows from the sizes of the supernodes, and starts them. Their first rows will be in
+ * the first tiles. w->earlier becomes the first part of each that was split. */
 static void sli_structure_start(const sli_analysis *w, const sl_symbolic *S) {
-    const sl_int *begin = w->columns.begin, *old_of = w->old_of;
-    sl_off *end = S->scatter_begin + 1, total = 0; /* of each supernode */
-    sli_structure_super *all = w->supers;
+    const sli_amalgamation *g = &w->amalgamation;
+    sl_off rows = 0, panel = 0;
     sl_int s;
-    end[-1] = 0;
-    for (s = 0; s < w->n; s++) { /* its last column writes last: without branches */
-        total += begin[old_of[s] + 1] - begin[old_of[s]];
-        end[S->super_of[s]] = total;
-    }
     for (s = 0; s < S->n_supers; s++) {
-        sli_structure_super *v = &all[s];
-        const sl_int first = S->super_first[s];
-        v->width = S->super_first[s + 1] - first;
-        v->to = S->panel_begin[s] - SLI_TILE * (sl_off)first + SLI_TILE - 1;
-        v->rows = S->rows_begin[s] - v->width;
+        sli_structure_super *v = &w->supers[s];
+        const sl_int first = g->first[s], width = g->width[s];
+        panel = sli_panel_start(width, panel);
+        S->super_first[s] = first;
+        S->super_parent[s] = v->up = g->parent[s];
+        S->rows_begin[s] = rows;
+        S->panel_begin[s] = panel;
+        v->width = width;
+        v->to = panel - SLI_TILE * (sl_off)first + SLI_TILE - 1;
+        v->rows = rows - width;
         v->last = -1;
         v->height = 0;
-        v->up = S->super_parent[s];
-        v->bottom = w->earlier == NULL || w->earlier[s] == -1 ? s : all[w->earlier[s]].bottom;
-        v->next = (sl_int)S->scatter_begin[s];
+        rows += g->below[s];
+        panel += sli_panel_size(width, g->below[s]);
+        if (w->earlier != NULL) {
+            w->earlier[s] = w->earlier[s] == -1 ? s : w->earlier[w->earlier[s]];
+        }
     }
+    S->super_first[s] = w->n;
+    S->rows_begin[s] = rows;
+    S->panel_begin[s] = panel;
 }
 
 /* Adds row k to a supernode, as its next local row: the next one of its tile, or the first one of
@@ -74,17 +90,18 @@ SLI_ALWAYS_INLINE void sli_structure_add(sli_structure_super *v, sl_int k) {
 }
 
 /* Adds row k below v and its ancestors, up to the first one that has it. The relative index is the
- * local row that the parent has for it, or will have next. All parts of a supernode get the row. */
+ * local row that the parent has for it, or will have next. All parts of a supernode get the row.
+ * bottom: the first part of each, or NULL. */
 SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structure_super *v,
                                            sl_int k, sl_int *rows, sl_int *relative,
-                                           int has_parts) {
+                                           const sl_int *bottom) {
     while (v->last != k) {
         sli_structure_super *up = all + v->up;
         const sl_off at = v->rows + v->height;
         rows[at] = k;
         relative[at] = up->height - (up->last == k);
         sli_structure_add(v, k);
-        v = has_parts && up->bottom != v->bottom ? all + up->bottom : up;
+        v = bottom != NULL && bottom[up - all] != bottom[v - all] ? all + bottom[up - all] : up;
     }
 }
 
@@ -95,10 +112,9 @@ SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structu
 static void sli_structure_rows(void *data, const sli_range *r) {
     const sli_analysis *w = (const sli_analysis *)data;
     const sl_symbolic *S = w->S;
-    const sl_int *super_of = S->super_of, *new_of = w->new_of, *row;
-    const int has_parts = w->earlier != NULL;
+    const sl_int *super_of = S->super_of, *new_of = w->new_of, *bottom = w->earlier, *row;
     sl_int *rows = S->rows, *relative = S->relative, *from = S->scatter_from, k;
-    sl_off *to = S->scatter_to;
+    sl_off *to = S->scatter_to, *next = S->scatter_begin + 1;
     sli_structure_super *all = w->supers;
     for (k = r->first; k < r->last; k++) {
         const sl_int *begin = w->column + w->old_of[k];
@@ -109,36 +125,45 @@ static void sli_structure_rows(void *data, const sli_range *r) {
             continue;
         }
         sli_structure_add(own, k);
-        sli_structure_climb(all, all + own->bottom, k, rows, relative, has_parts);
+        if (bottom != NULL) {
+            sli_structure_climb(all, all + bottom[super_of[k]], k, rows, relative, bottom);
+        }
         for (row = w->spare + 2 * (size_t)begin[0]; row < end; row += 2) {
-            const sl_int column = new_of[row[0]];
-            sli_structure_super *v = all + super_of[column];
-            sl_int e;
-            sli_structure_climb(all, has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
-            e = v->next++;
+            const sl_int column = new_of[row[0]], s = super_of[column];
+            sli_structure_super *v = all + s;
+            sl_off e;
+            sli_structure_climb(all, bottom != NULL ? all + bottom[s] : v, k, rows, relative,
+                                bottom);
+            e = next[s]++;
             from[e] = row[1];
             to[e] = v->to + SLI_TILE * (sl_off)column;
         }
     }
 }
 
-/* Fills panel_begin. */
-static void sli_fill_panels(const sli_analysis *w, sl_symbolic *S) {
-    const sli_amalgamation *g = &w->amalgamation;
-    sl_off end = 0;
-    sl_int s;
+/* Fills first_descendant. As supernodes are in postorder, the children of s are s - 1, then the
+ * supernode before the first descendant of s - 1, and so on, down to the first descendant of s. */
+static void sli_fill_descendants(const sl_symbolic *S) {
+    sl_int *low = S->first_descendant, s;
+    sli_order_natural(S->n_supers, low);
     for (s = 0; s < S->n_supers; s++) {
-        S->panel_begin[s] = sli_panel_start(g->width[s], end);
-        end = S->panel_begin[s] + sli_panel_size(g->width[s], g->below[s]);
+        const sl_int up = S->super_parent[s];
+        if (up != -1) {
+            low[up] = sli_min(low[up], low[s]);
+        }
     }
-    S->panel_begin[s] = end;
 }
 
-static void sli_fill_structure(sli_analysis *w, const sl_symbolic *S) {
+/* Fills all arrays of S by supernodes but the steps. That of an edit has no first_descendant. */
+SLI_NOINLINE static void sli_fill_structure(sli_analysis *w, const sl_symbolic *S) {
     const sli_range all = {0, w->n, 0, 0};
     const sl_int count = w->team == NULL ? 1 : sli_shares_count(w->team, w->n);
     w->S = S;
+    sli_structure_count(w, S);
     sli_structure_start(w, S);
+    if (S->first_descendant != NULL) {
+        sli_fill_descendants(S);
+    }
     if (count > 1) {
         sli_range_run(w->team, w->n, count, sli_structure_rows, w);
     }
@@ -184,21 +209,6 @@ static void sli_fill_steps(sl_symbolic *S) {
         step->up = S->super_parent[s];
         S->widest = sli_max(S->widest, step->width);
         S->tallest = sli_max(S->tallest, step->width + step->below);
-    }
-}
-
-/* Fills first_descendant. As supernodes are in postorder, the children of s are s - 1, then the
- * supernode before the first descendant of s - 1, and so on, down to the first descendant of s. */
-static void sli_fill_descendants(sl_symbolic *S) {
-    sl_int s;
-    for (s = 0; s < S->n_supers; s++) {
-        S->first_descendant[s] = s;
-    }
-    for (s = 0; s < S->n_supers; s++) {
-        const sl_int up = S->super_parent[s];
-        if (up != -1) {
-            S->first_descendant[up] = sli_min(S->first_descendant[up], S->first_descendant[s]);
-        }
     }
 }
 

@@ -13,8 +13,13 @@
 #define SLI_SORTED_ROWS 255
 #define SLI_SORTED_LEAF 24 /* fewest rows below a tall leaf */
 
+/* Is supernode s, on top of a tree, sorted among its siblings? children: as below. */
+SLI_INLINE int sli_is_sorted_sibling(const sli_amalgamation *g, sl_int s, sl_int children) {
+    return g->width[s] == 1 || (children == 0 && g->below[s] >= SLI_SORTED_LEAF);
+}
+
 /* The order of sibling supernodes: NULL, if it is that of their numbers. top: of each supernode;
- * children: `count` of scratch; order: gets it. */
+ * order: gets it; children: `count` of scratch: twice how many are sorted, and 1 if it has any. */
 static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *top,
                                        const sl_int *tree, sl_int count, sl_int *children,
                                        sl_int *order) {
@@ -22,25 +27,23 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
     if (count <= SLI_SORTED_CHILDREN) {
         return NULL;
     }
-    for (s = 0; s < count; s++) { /* -1: of a tall leaf */
-        children[s] = -(g->below[top[s]] >= SLI_SORTED_LEAF);
+    SLI_ZERO(children, count);
+    for (s = 0; s < count; s++) { /* children first */
+        if (tree[s] != -1) {
+            sl_int *up = &children[tree[s]];
+            *up = (*up | 1) + 2 * sli_is_sorted_sibling(g, top[s], children[s]);
+            most = sli_max(most, *up);
+        }
+    }
+    if (most < 2 * SLI_SORTED_CHILDREN) {
+        return NULL;
     }
     memset(begin, 0, sizeof begin);
-    for (s = 0; s < count; s++) {
-        if (tree[s] != -1) {
-            children[tree[s]] = 0;
-        }
-    }
-    for (s = 0; s < count; s++) {
-        if (tree[s] != -1 && (g->width[top[s]] == 1 || children[s] == -1)) {
-            most = sli_max(most, ++children[tree[s]]);
-        }
-    }
-    for (pass = 0; pass < 2 && most >= SLI_SORTED_CHILDREN; pass++) {
+    for (pass = 0; pass < 2; pass++) {
         for (s = 0; s < count; s++) {
             const int is_sorted = tree[s] != -1 &&
-                                  (g->width[top[s]] == 1 || children[s] == -1) &&
-                                  children[tree[s]] >= SLI_SORTED_CHILDREN;
+                                  children[tree[s]] >= 2 * SLI_SORTED_CHILDREN &&
+                                  sli_is_sorted_sibling(g, top[s], children[s]);
             k = is_sorted ? sli_min(g->below[top[s]], SLI_SORTED_ROWS) : 0;
             if (pass == 0) {
                 begin[k + 1]++;
@@ -52,7 +55,7 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
             begin[k + 1] += begin[k];
         }
     }
-    return most >= SLI_SORTED_CHILDREN ? order : NULL;
+    return order;
 }
 
 /* Numbers the supernodes in a postorder of their tree and makes their columns consecutive: order[k]
@@ -62,10 +65,11 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
  *
  * sequence: the columns in the caller's order; NULL: 0, 1, ... Sibling subtrees follow each other
  * by their last columns in the sequence, and the columns of a supernode keep its order. So a
- * sequence that is a postorder of the supernodes is kept as it is. scratch: 5n.
+ * sequence that is a postorder of the supernodes is kept as it is. is_postorder: the columns are
+ * numbered in one, and then the supernodes are, too. scratch: 5n.
  */
-static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl_int *order,
-                                 sl_int *scratch) {
+static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, int is_postorder,
+                                 sl_int *order, sl_int *scratch) {
     const sl_int n = g->n;
     sl_int *super_of = g->super_of, *top = scratch, *tree = scratch + n,
            *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n,
@@ -74,9 +78,16 @@ static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl
     const sl_int *siblings =
         sequence == NULL ? sli_sort_siblings(g, top, tree, count, at, order) : NULL;
     sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
-    sli_postorder(tree, siblings, count, post, at, number);
+    if (is_postorder && siblings == NULL) {
+        sli_order_natural(count, post);
+        number = post;
+    } else {
+        sli_postorder(tree, siblings, count, post, at, number);
+        for (k = 0; k < count; k++) {
+            number[post[k]] = k;
+        }
+    }
     for (k = 0; k < count; k++) {
-        number[post[k]] = k;
         at[k] = column; /* where the next column of the supernode goes */
         column += g->width[top[post[k]]];
     }

@@ -26,7 +26,7 @@ typedef struct sli_amalgamation {
     int merges;            /* by sli_amalgamate */
     int relaxes;           /* merge others too */
     int is_for_one_factor; /* by the costs of SL_PURPOSE_ONE_FACTOR */
-    int is_large;          /* L has SLI_LARGE_ENTRIES, in columns of few */
+    int is_large;          /* L has SLI_LARGE_ENTRIES, in columns of few in the mean */
 } sli_amalgamation;
 
 /* other[k] := a child of k but k - 1, or -1. */
@@ -37,61 +37,6 @@ static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *othe
         if (parent[k] != -1 && parent[k] != k + 1) {
             other[parent[k]] = k;
         }
-    }
-}
-
-/* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
- * the next. The column count falls by one along a run. splits: roots of two columns are two
- * supernodes. Returns the number of supernodes. */
-static sl_int sli_fundamental_find(sli_amalgamation *g, const sl_int *parent, const sl_int *counts,
-                                   const sl_int *other, int splits) {
-    const sl_int n = g->n;
-    sl_int j, s = -1;
-    g->first[0] = 0;
-    for (j = 0; j < n; j++) { /* without branches, which nothing would predict */
-        const sl_int last = j - (j > 0);
-        int starts = (parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1));
-        if (splits) { /* otherwise it would wait for the store of the column before */
-            starts |= (counts[j] == 1) & (g->first[s + (s < 0)] == last);
-        }
-        g->first[s + 1] = j;
-        s += starts != 0;
-        g->super_of[j] = s;
-    }
-    g->first[s + 1] = n;
-    return s + 1;
-}
-
-/* Is there a root of two columns, which may be better apart, and a supernode of an odd number of
- * columns? Without one the matrix may be complex, and keeps its pairs of columns. */
-static int sli_has_root_pairs(const sli_amalgamation *g, const sl_int *counts) {
-    sl_int s;
-    int has_odd = 0, has_pair = 0;
-    for (s = 0; s < g->count; s++) {
-        const sl_int width = g->first[s + 1] - g->first[s];
-        has_odd |= width & 1;
-        has_pair |= (width == 2) & (counts[g->first[s]] == 2);
-    }
-    return has_odd & has_pair;
-}
-
-/* Fills g with the fundamental supernodes. other: by sli_find_other_children. */
-static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts,
-                            const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
-    sl_int s;
-    g->n = n;
-    g->super_of = super_of;
-    g->count = sli_fundamental_find(g, parent, counts, other, 0);
-    if (g->relaxes && sli_has_root_pairs(g, counts)) {
-        g->count = sli_fundamental_find(g, parent, counts, other, 1);
-    }
-    for (s = 0; s < g->count; s++) {
-        const sl_int last = g->first[s + 1] - 1;
-        g->width[s] = g->first[s + 1] - g->first[s];
-        g->below[s] = counts[last] - 1;
-        g->parent[s] = parent[last] == -1 ? -1 : super_of[parent[last]];
-        g->zeros[s] = 0;
-        g->merged_into[s] = s;
     }
 }
 
@@ -109,14 +54,55 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 #define SLI_ZEROS_MOST_LARGE 40
 #define SLI_ZEROS_MOST_COLUMN 25
 
-/* Is L like that? counts: the entries of its n columns. */
-static int sli_is_large(const sl_int *counts, sl_int n) {
+/* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
+ * the next. The column count falls by one along a run. splits: roots of two columns are two
+ * supernodes. Returns the number of supernodes. */
+static sl_int sli_fundamental_find(sli_amalgamation *g, const sl_int *parent, const sl_int *counts,
+                                   const sl_int *other, int splits) {
+    const sl_int n = g->n;
     sl_off entries = 0;
-    sl_int k;
-    for (k = 0; k < n; k++) {
-        entries += counts[k];
+    sl_int j, s = -1;
+    g->first[0] = 0;
+    for (j = 0; j < n; j++) { /* without branches, which nothing would predict */
+        const sl_int last = j - (j > 0);
+        int starts = (parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1));
+        if (splits) { /* otherwise it would wait for the store of the column before */
+            starts |= (counts[j] == 1) & (g->first[s + (s < 0)] == last);
+        }
+        g->first[s + 1] = j;
+        s += starts != 0;
+        g->super_of[j] = s;
+        entries += counts[j];
     }
-    return entries >= SLI_LARGE_ENTRIES && entries < SLI_LARGE_COLUMN * (sl_off)n;
+    g->first[s + 1] = n;
+    g->is_large = entries >= SLI_LARGE_ENTRIES && entries < SLI_LARGE_COLUMN * (sl_off)n;
+    return s + 1;
+}
+
+/* Fills g with the fundamental supernodes. other: by sli_find_other_children. Roots of two columns
+ * may be better apart. Without a supernode of an odd number of columns the matrix may be complex,
+ * and keeps its pairs of columns. */
+static void sli_fundamental(sli_amalgamation *g, const sl_int *parent, const sl_int *counts,
+                            const sl_int *other) {
+    sl_int s, count = sli_fundamental_find(g, parent, counts, other, 0);
+    int has_odd = 0, has_pair = 0;
+    for (s = 0; s < count && g->relaxes; s++) {
+        const sl_int width = g->first[s + 1] - g->first[s];
+        has_odd |= width & 1;
+        has_pair |= (width == 2) & (counts[g->first[s]] == 2);
+    }
+    if (has_odd && has_pair) {
+        count = sli_fundamental_find(g, parent, counts, other, 1);
+    }
+    g->count = count;
+    for (s = 0; s < count; s++) {
+        const sl_int last = g->first[s + 1] - 1;
+        g->width[s] = g->first[s + 1] - g->first[s];
+        g->below[s] = counts[last] - 1;
+        g->parent[s] = parent[last] == -1 ? -1 : g->super_of[parent[last]];
+        g->zeros[s] = 0;
+        g->merged_into[s] = s;
+    }
 }
 
 /* The largest percentage of zeros in a supernode that child c is merged into. */

@@ -113,7 +113,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     j.w.A = A;
     j.w.pairs = pairs;
     j.w.workers = sli_analysis_workers(A, opt);
-    SLI_LAYOUT_SMALL(&b, &j.a, small, status) {
+    SLI_LAYOUT_IN(&b, &j.a, small, sizeof small, status) {
         sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
     }
     if (status == SL_OK) {

@@ -13,7 +13,8 @@ SLI_INLINE void sli_next_phase(sli_block *b, size_t begin, size_t *end) {
 
 /* What the ordering fills comes first. Then follows memory that the ordering may use until it is
  * done: a graph and a quotient graph need some 64 n + 18 nnz bytes. */
-static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
+SLI_NOINLINE static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows,
+                                             sl_int nnz) {
     const uint64_t n = (uint64_t)rows; /* 5 n may exceed 2^32 */
     size_t begin, end;
     w->n = rows;
@@ -38,11 +39,11 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     begin = end = b->used; /* three phases use the same memory, one after the other */
     w->room = SLI_CUT(b, sl_int, SLI_ANALYSIS_ROOM(n) * (uint64_t)sli_max(w->workers, 1));
     sli_next_phase(b, begin, &end);
-    w->list = SLI_CUT(b, uint64_t, 2 * n);
     w->amalgamation.zeros = SLI_CUT(b, sl_off, rows);
     w->amalgamation.cost = SLI_CUT(b, sl_off, rows);
     w->amalgamation.merged_into = SLI_CUT(b, sl_int, rows);
     w->amalgamation.apart = SLI_CUT(b, sl_int, rows);
+    w->list = SLI_CUT(b, uint64_t, 2 * n);
     sli_next_phase(b, begin, &end);
     w->supers = SLI_CUT(b, sli_structure_super, rows);
     b->used = b->used > end ? b->used : end;
@@ -54,14 +55,16 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->spare = SLI_CUT(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
-/* All arrays. A saved analysis has them in this order (save/format.h). */
-static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
+/* All arrays. A saved analysis has them in this order (save/format.h). shares: each column is a
+ * supernode, so that super_of is super_first. */
+static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries,
+                                int shares) {
     const sl_int n = S->n, supers = S->n_supers;
     S->perm = SLI_CUT(b, sl_int, n);
     S->iperm = SLI_CUT(b, sl_int, n);
     S->parent = SLI_CUT(b, sl_int, n);
     S->counts = SLI_CUT(b, sl_int, n);
-    S->super_of = SLI_CUT(b, sl_int, n);
+    S->super_of = SLI_CUT(b, sl_int, shares ? 0 : n);
     S->super_first = SLI_CUT(b, sl_int, supers + 1);
     S->super_parent = SLI_CUT(b, sl_int, supers);
     S->rows_begin = SLI_CUT(b, sl_off, supers + 1);
@@ -153,6 +156,9 @@ static void sli_analyze_item(void *data, sl_int item, sl_int worker) {
     sl_int *child = w->scratch, *more = w->scratch + n, *sequence = NULL, k;
     (void)worker;
     if (item == 1) {
+        if (w->team != NULL && w->team->workers == 1 && w->columns.begin[n] / 5 < n) {
+            w->spare = (sl_int *)(void *)w->amalgamation.zeros; /* has been used: item 0 is done */
+        }
         sli_structure_sort(w);
         return;
     }
@@ -170,9 +176,10 @@ static void sli_analyze_item(void *data, sl_int item, sl_int worker) {
         sli_find_other_children(n, w->parent, more);
     }
     w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
-    sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
+    w->amalgamation.n = n;
+    w->amalgamation.super_of = w->super_of;
+    sli_fundamental(&w->amalgamation, w->parent, w->counts, more);
     w->found->symbolic.supernodes_fundamental = w->amalgamation.count;
-    w->amalgamation.is_large = sli_is_large(w->counts, n);
     w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
     if (w->pairs != NULL) {
         sli_analysis_tie(w);
@@ -181,7 +188,8 @@ static void sli_analyze_item(void *data, sl_int item, sl_int worker) {
     if (w->amalgamation.merges) {
         sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
     }
-    if (sli_number_supernodes(&w->amalgamation, sequence, order, w->scratch)) {
+    if (sli_number_supernodes(&w->amalgamation, sequence, !w->keeps_order, order,
+                              w->scratch)) {
         sli_analysis_reorder(w, order);
     }
     if (w->pairs != NULL) {
@@ -259,7 +267,7 @@ static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
 /* Copies the tree out of the scratch and fills everything that depends on it. */
 static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) {
     const size_t bytes = (size_t)S->n * sizeof(sl_int);
-    sl_int s, k;
+    sl_int k;
     for (k = 0; k < S->n; k++) {
         S->perm[k] = w->perm[w->old_of[k]];
         S->iperm[S->perm[k]] = k;
@@ -267,19 +275,12 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) 
     sli_copy(S->parent, w->parent, bytes);
     memcpy(S->counts, w->counts, bytes);
     memcpy(S->super_of, w->super_of, bytes);
-    SLI_COPY(S->super_first, w->amalgamation.first, S->n_supers + 1);
-    SLI_COPY(S->super_parent, w->amalgamation.parent, S->n_supers);
-    S->rows_begin[0] = 0;
-    for (s = 0; s < S->n_supers; s++) {
-        S->rows_begin[s + 1] = S->rows_begin[s] + w->amalgamation.below[s];
-    }
-    sli_fill_panels(w, S);
     for (k = 0; k < S->n && S->n_pairs > 0; k++) {
         S->pairs[k] = w->is_first[k]                ? SLI_PAIR_FIRST
                       : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
                                                     : SLI_PAIR_NONE;
     }
-    sli_fill_descendants(S);
+    w->supers = (sli_structure_super *)(void *)S->steps; /* memory that has been used, or will be */
     sli_fill_structure(w, S);
     sli_fill_steps(S);
     sli_fill_plain(S);
@@ -313,10 +314,10 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     }
     SLI_LAYOUT(&b, &draft->allocator, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
-        sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
+        sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a, draft->n_supers == w->n);
         if (sli_is_mostly_plain(plain, draft->n_supers)) {
             draft->plain = SLI_CUT(&b, sl_int, draft->n_supers);
-            if (draft->nnz_input > 0) {
+            if (draft->nnz_input > 0 && !w->amalgamation.is_for_one_factor) {
                 draft->input = SLI_CUT(&b, sl_int, (sl_off)w->n + 1 + draft->nnz_input);
             }
         }
@@ -325,6 +326,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     if (status != SL_OK) {
         return status;
     }
+    draft->super_of = draft->n_supers == w->n ? draft->super_first : draft->super_of;
     sli_symbolic_fill(draft, w, stats);
     stats->symbolic.seconds_structure = sli_analysis_lap(w);
     stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;

@@ -162,11 +162,11 @@ SLI_INLINE void sli_populate(const sl_allocator *a, const sli_block *b) {
     for (int sli_pass = 0; sli_pass < 2 && (status) == SL_OK; \
          (status) = sli_pass++ == 0 ? sli_block_alloc((b), (a)) : SL_OK)
 
-/* The same for memory of one call, of counts with 32 bits: it is in the array `small`, and is
- * allocated only if that has no room. So one run is enough for a small system. */
-#define SLI_LAYOUT_SMALL(b, a, small, status) \
-    for (int sli_pass = sli_block_begin((b), (small)); sli_pass < 2 && (status) == SL_OK; \
-         sli_pass += 1 + ((b)->used <= sizeof(small) - SLI_ALIGN), \
+/* The same for memory of one call, of counts with 32 bits: it is in `room`, and is allocated only
+ * if that is too small. So one run is enough for a small system. */
+#define SLI_LAYOUT_IN(b, a, room, bytes, status) \
+    for (int sli_pass = sli_block_begin((b), (room)); sli_pass < 2 && (status) == SL_OK; \
+         sli_pass += 1 + ((b)->used <= (bytes) - SLI_ALIGN), \
              (status) = sli_pass == 1 ? sli_block_alloc((b), (a)) : SL_OK)
 
 SLI_INLINE int sli_block_begin(sli_block *b, void *small) {

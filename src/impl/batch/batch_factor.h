@@ -232,7 +232,7 @@ SL_API sl_status sl_factor_refactor_sums(sl_factor *const *factors, sl_int count
         status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
     }
     for (k = 0; k < count && status == SL_OK; k++) { /* loaded factors need scratch */
-        status = sli_factor_prepare(factors[k]);
+        status = sli_factor_prepare(factors[k], 0);
         at = status == SL_OK ? -1 : k;
     }
     if (status == SL_OK && count > 0) {

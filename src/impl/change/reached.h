@@ -127,7 +127,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     if (!sli_reached_is_suited(F) || entries >= (uint64_t)sli_nnz(A)) {
         return sl_factor_refactor(F, A, stats);
     }
-    status = sli_factor_prepare(F);
+    status = sli_factor_prepare(F, 0);
     SLI_LAYOUT(&b, &F->allocator, status) {
         from = SLI_TAKE(&b, sl_int, F->S->n_supers);
     }

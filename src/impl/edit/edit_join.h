@@ -256,7 +256,7 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
         }
     }
     for (k = 0; k < j->r.n_entries; k++) {
-        entries += j->r.w.columns.entry[SLI_ENTRY * (size_t)k + 2] != -1;
+        entries += j->r.w.columns.entry[SLI_ENTRY * (size_t)k + 1] != -1;
     }
     status = status == SL_OK ? sli_joint_room(out, &draft, rows, entries, stats) : status;
     if (status == SL_OK) {

@@ -196,8 +196,7 @@ static void sli_restriction_sort(sli_restriction *r) {
         const sl_int a = r->entry_row[e], b = r->entry_column[e], column = sli_min(a, b);
         sl_int *entry = columns->entry + SLI_ENTRY * (size_t)at[column]++;
         entry[0] = a + b - column;
-        entry[1] = column;
-        entry[2] = r->entry_from[e];
+        entry[1] = r->entry_from[e];
     }
 }
 
@@ -244,11 +243,6 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     if (status != SL_OK) {
         return status;
     }
-    T->rows_begin[0] = 0;
-    for (t = 0; t < T->n_supers; t++) {
-        T->rows_begin[t + 1] = T->rows_begin[t] + w->amalgamation.below[t];
-    }
-    sli_fill_panels(w, T);
     sli_fill_structure(w, T);
     return SL_OK;
 }

@@ -262,7 +262,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     status = sli_argument(F == NULL ? "F is NULL" : NULL);
     status = status == SL_OK ? sli_factor_may_change(F) : status;
     status = status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
-    status = status == SL_OK ? sli_factor_prepare(F) : status;
+    status = status == SL_OK ? sli_factor_prepare(F, 0) : status;
     if (status == SL_OK) {
         sli_factor_begin(F);
         status = sli_factor_numbers(F, &from, sli_factor_clock(F->S), stats);

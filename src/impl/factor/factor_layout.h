@@ -81,23 +81,29 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
 }
 
 /* Allocates what a factorization needs besides L and D, unless F has it. A loaded factor gets it
- * with its first refactorization. A supernodal factorization is planned in memory of its own first:
- * fronts are assigned to workers, and the size of the update stack is known. */
-static sl_status sli_factor_prepare(sl_factor *F) {
+ * with its first refactorization. A supernodal factorization is planned in other memory first:
+ * fronts are assigned to workers, and the size of the update stack is known. is_new: in that of the
+ * extents. */
+static sl_status sli_factor_prepare(sl_factor *F, int is_new) {
     const sl_symbolic *S = F->S;
     const int has_fronts = F->method == SL_METHOD_SUPERNODAL;
     sli_schedule plan = F->schedule, p = plan;
     sli_block b = {NULL, 0}, t = {NULL, 0};
     sli_schedule_work w;
     uint64_t small[512];
-    size_t planned = 0;
+    void *room = small;
+    size_t planned = 0, bytes = sizeof small;
     sl_status status = SL_OK;
     if (F->scratch != NULL) {
         return SL_OK;
     }
+    if (is_new && (size_t)S->n_supers * sizeof *F->extents > bytes) {
+        room = F->extents;
+        bytes = (size_t)S->n_supers * sizeof *F->extents;
+    }
     SLI_CLEAR(w); /* compilers do not see that the layout fills it */
     if (has_fronts) {
-        SLI_LAYOUT_SMALL(&t, &F->allocator, small, status) {
+        SLI_LAYOUT_IN(&t, &F->allocator, room, bytes, status) {
             sli_schedule_layout(&plan, &t, S->n_supers);
             planned = t.used;
             sli_schedule_work_layout(&w, &t, S->n_supers, plan.workers);
@@ -133,7 +139,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     } else {
         F->history.marks = NULL;
     }
-    sli_block_free(&t, &F->allocator, small);
+    sli_block_free(&t, &F->allocator, room);
     return status;
 }
 

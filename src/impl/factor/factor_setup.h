@@ -85,23 +85,21 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
     return sli_skips_nulls(F) ? F->null.calls->fill(F, opt, stats) : SL_OK;
 }
 
-/* Do more than 8 MB of update matrices wait for one parent, and 8 times as much as L has? */
+/* Do more than 8 MB of update matrices wait for one parent, and 8 times as much as L has? One child
+ * passes up less. */
 static int sli_updates_exceed(const sl_symbolic *S) {
     const double room = 8.0 * (double)S->panel_begin[S->n_supers];
-    const sl_off most = room > 1e6 ? (sl_off)room : 1000000; /* fmax is a call */
-    const sl_int children = S->n_supers - S->stats.symbolic.components;
-    sli_step tallest; /* its update matrix is the largest that there may be */
-    sl_off sum = 0;
+    const double most = room > 1e6 ? room : 1e6, height = 16.0 + S->tallest;
+    const sl_int *low = S->first_descendant;
+    double sum = 0.0;
     sl_int s, c;
-    tallest.width = SLI_TILE - 1;
-    tallest.below = S->tallest;
-    if ((double)sli_update_size(&tallest) * children <= (double)most) {
+    if (height * height * S->n_supers <= most) { /* no update matrix is larger */
         return 0;
     }
-    for (s = 0; s < S->n_supers && sum <= most; s++) {
-        sum = 0;
-        for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-            sum += sli_is_plain(S, c) ? 0 : sli_update_size(&S->steps[c]);
+    for (s = 1; s < S->n_supers && sum <= most; s++) {
+        sum = 0.0;
+        for (c = s - 1; c >= low[s] && low[s - 1] > low[s]; c = low[c] - 1) {
+            sum += sli_is_plain(S, c) ? 0.0 : (double)sli_update_size(&S->steps[c]);
         }
     }
     return sum > most;
@@ -164,7 +162,7 @@ SLI_INLINE double sli_factor_clock(const sl_symbolic *S) {
 static void sli_factor_clear_gaps(sl_factor *F) {
     const sli_step *step = F->S->steps, *last = step + F->S->n_supers;
     const sl_off *next = F->S->panel_begin;
-    for (; step < last; step++) {
+    for (; step < last && F->S->widest > 1; step++) {
         const sl_off end = step->panel + 1 + step->below;
         next++;
         if (step->width == 1 && end < *next) {
@@ -220,12 +218,12 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
         sl_factor *F = (sl_factor *)(void *)b.base;
         sli_copy(F, &draft, sizeof draft);
         sli_borrow(&S->borrowers);
-        sli_clear(F->extents, (size_t)S->n_supers * sizeof *F->extents);
         sli_factor_clear_gaps(F);
         if (F->E != NULL) {
             SLI_ZERO(F->E, S->n);
         }
-        status = sli_factor_prepare(F);
+        status = sli_factor_prepare(F, 1);
+        sli_clear(F->extents, (size_t)S->n_supers * sizeof *F->extents);
         status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
         F->stats.factor.seconds_setup = sli_factor_clock(S) - started;
         if (status == SL_OK) {

@@ -10,10 +10,10 @@
  * kept. Rows are positions in the elimination order. */
 typedef struct sli_pattern {
     sl_int *begin; /* n + 1 */
-    sl_int *entry; /* SLI_ENTRY for each: its row, its column and its position in A's arrays */
+    sl_int *entry; /* SLI_ENTRY for each: its row and its position in A's arrays */
 } sli_pattern;
 
-#define SLI_ENTRY 3
+#define SLI_ENTRY 2
 
 /* The adjacency graph of a symmetric matrix: the full pattern without its diagonal. An entry given
  * twice is an edge given twice. */
