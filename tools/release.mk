@@ -61,4 +61,4 @@ release: check-header docs npm wheels ## build/release: headers, tarball, manual
 	@ls -l build/release build/release/python
 
 check-release: release ## the files of a release, each used by itself in an empty folder
-	@CC='$(CC)' PYTHON='$(PYTHON)' tests/adapters/check_release.sh build/release
+	@CC='$(CC)' CXX='$(CXX)' PYTHON='$(PYTHON)' WINE='$(WINE)' SOURCE_DATE_EPOCH=$(COMMIT_TIME) tests/adapters/check_release.sh build/release
