@@ -252,7 +252,7 @@ run-tests: build-tests
 PROGRAM_CHECKS = tests/tools/check_program.sh tests/tools/check_output.sh tests/tools/check_hostile.sh
 
 test: deps deps-png ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
-	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh $(PROGRAM_CHECKS)' PROGRAM=$(B)/sparse-local
+	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh tests/tools/check_evidence.sh $(PROGRAM_CHECKS)' PROGRAM=$(B)/sparse-local
 
 # The core, a test of each kind of call, and what most changes break first.
 QUICK = arguments csc factor ordering solve symbolic null_pivots errors options out_of_memory inverse_diagonal change_use constraints_use \
