@@ -1,4 +1,4 @@
-#!/bin/sh
+#!/bin/bash
 # evidence.sh: what a release is tested with: targets and fuzzers, kept with the code they ran on
 #
 #     tests/lib/evidence.sh SECONDS [TARGET ...]      (make evidence)
@@ -46,7 +46,7 @@ commit=$(git rev-parse --short HEAD 2>/dev/null || echo none)
 changed=$(git status --porcelain -- $places 2>/dev/null | cut -c 4- | code_alone)
 commit=$commit${changed:+-changed}
 processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)
-machine="${processor:-$(uname -m)}, $jobs cores, $(cc --version 2>/dev/null | head -n 1)"
+machine="${processor:-$(uname -m)}, $jobs cores, $(cc --version 2>/dev/null | sed 's: ([^)]*)::; q')"
 
 # ---- results: target, code, status, passed, failed, skipped, commit, date, machine, seconds, remark
 

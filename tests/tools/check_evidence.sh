@@ -46,10 +46,12 @@ cov:
 late: docs
 	$(note)
 slow:
-	@echo $@ >>ran; kill -TERM $$(cat pid); sleep 1
+	@echo $@ >>ran; test ! -f HANG || while ! [ -s hangs ]; do sleep 0.1; done
+	@kill -TERM $$(cat pid); sleep 1
 fuzz: $(FUZZERS:tests/fuzz/fuzz_%.c=fuzz_%)
 fuzz_%:
 	@mkdir -p build/fuzz && echo fuzz_$* $(FUZZ_SECONDS) >>ran
+	@test ! -f HANG || { echo $$$$ >hangs; exec sleep 60; }
 	@printf 'stat::number_of_executed_units: 100\nDone 100 runs in $(FUZZ_SECONDS) second(s)\n' \
 	>build/fuzz/$*.log; ! grep -qx $@ FAIL
 test-page:
@@ -57,7 +59,7 @@ test-page:
 MAKE
 touch FAIL tests/fuzz/fuzz_one.c tests/fuzz/fuzz_two.c src/code.h src/README.md
 echo /build/ >.gitignore
-printf 'ran\nFAIL\npid\nout\n' >>.gitignore
+printf 'ran\nFAIL\npid\nout\nHANG\nhangs\n' >>.gitignore
 git init -q . && git add -A && git commit -qm first || exit 1
 
 # evidence ARGUMENT ...: `out` is what it prints, `ran` what it has run
@@ -122,6 +124,9 @@ check 'stopped in the middle: what was done is kept' "
     echo 3 >>src/code.h && ! evidence 4 docs slow judge && ran docs slow &&
     evidence 4 docs judge && ran judge && in_table '| \`docs\` | yes | 0 | 0 |' &&
     in_table '| \`fuzz-one\` | 200 runs |'"
+check 'stopped in the middle: fuzzers end, too' "
+    touch HANG && ! evidence 9 slow && sleep 1 && ! kill -0 \$(cat hangs) && rm HANG &&
+    in_file=\$(grep -c fuzz-one tests/evidence.tsv) && [ \$in_file -eq 1 ]"
 check 'a checkout without build: results are those of the file' "
     rm -rf build && evidence 4 docs judge && ran_nothing"
 check 'the order: first what .ci does not run; each target is in a Makefile' "
