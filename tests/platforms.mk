@@ -128,7 +128,7 @@ platform-table: ## prints the results of the platform targets as a Markdown tabl
 # ---- checkers of memory and of threads ----
 
 races: deps sparse_local.h ## the tests of threads, watched for data races
-	@+$(SUB_MAKE) run-tests B=build/races OPT='-O1 -g -fno-var-tracking -fsanitize=thread' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/races OPT='-O1 -g -fno-var-tracking -fsanitize=thread' $(FEW_TOOLS) \
 	TEST_PROGRAMS='$(THREADED:%=build/races/tests/core/%)'
 
 valgrind: deps ## the tests under valgrind (no AVX-512 there)
