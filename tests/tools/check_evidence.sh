@@ -131,8 +131,11 @@ check 'a checkout without build: results are those of the file' "
     rm -rf build && evidence 4 docs judge && ran_nothing"
 check 'the order: first what .ci does not run; each target is in a Makefile' "
     cd $root && eval \"\$(sed -n \"/^rare='/,/^file=/p\" tests/lib/evidence.sh)\" &&
-    for target in \$rare; do ! grep -qw -e \"make.* \$target\" .ci/run || exit 1; done &&
-    for target in \$nightly \$often; do grep -q \"make.* \$target\\b\" .ci/run || exit 1; done &&
+    grep -v '^ *#' .ci/run >$dir/ci &&
+    for target in \$rare; do ! grep -qw -e \"make.* \$target\" $dir/ci || exit 1; done &&
+    for target in \$nightly \$often; do
+        grep -q \"make.* \$target\b\" $dir/ci || exit 1
+    done &&
     for target in \$rare \$nightly \$often; do
         grep -qE \"^(test-%|([a-z-]+ )*\$target)( [a-z-]+)*:\" Makefile */*.mk */*/*.mk || exit 1
     done"
