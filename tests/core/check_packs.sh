@@ -298,7 +298,7 @@ pair() {
     $amalgamate --declarations "$@" src/small.in.h $pair.h &&
         $amalgamate --bodies "$@" src/small.in.h $pair.c
 }
-# pair_runs NAME SUM FLAG ...: a program of its two files, without a warning; its user is C, then C++
+# pair_runs NAME SUM FLAG ...: a program of its two files, without a warning, in C and in C++
 pair_runs() {
     pair=$1 sum=$2
     shift 2

@@ -46,9 +46,12 @@ commit=$(git rev-parse --short HEAD 2>/dev/null || echo none)
 changed=$(git status --porcelain -- $places 2>/dev/null | cut -c 4- | code_alone)
 commit=$commit${changed:+-changed}
 processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)
-machine="${processor:-$(uname -m)}, $jobs cores, $(cc --version 2>/dev/null | sed 's: ([^)]*)::; q')"
+compiler=$(cc --version 2>/dev/null | sed 's: ([^)]*)::; q')
+machine="${processor:-$(uname -m)}, $jobs cores, $compiler"
 
-# ---- results: target, code, status, passed, failed, skipped, commit, date, machine, seconds, remark
+# ---- results ----
+
+# A row: target, code, status, passed, failed, skipped, commit, date, machine, seconds, remark
 
 # row TARGET: its last result; empty if there is none
 row() {

@@ -1,5 +1,5 @@
 #!/bin/bash
-# check_evidence.sh: evidence.sh on a made-up Makefile: what is run again, failures, fuzzers, the table
+# check_evidence.sh: evidence.sh on a made-up Makefile: what runs again, failures, fuzzers, table
 #
 #     tests/tools/check_evidence.sh
 #
@@ -95,11 +95,14 @@ check 'fuzzers: slices up to their seconds in all, executions added' "
     [ \"\$(grep -c '^fuzz_one 2\$' ran)\" -eq 2 ] && grep -qx 'fuzz_one 1' ran &&
     in_table '| \`fuzz-one\` | 300 runs | 0 | 0 |' && in_table '| \`fuzz-two\` | 300 runs |' &&
     grep '^| .fuzz-one. .* | 5 |  |\$' out"
-check 'on the same code nothing runs again' "evidence 5 judge docs && ran_nothing && in_table '| \`judge\` | 1 | 0 | 0 | $commit |'"
+check 'on the same code nothing runs again' "
+    evidence 5 judge docs && ran_nothing &&
+    in_table '| \`judge\` | 1 | 0 | 0 | $commit |'"
 check 'more seconds: a fuzzer goes on' "evidence 6 docs && grep -qx 'fuzz_two 1' ran &&
     [ \"\$(grep -c '^fuzz_two' ran)\" -le 2 ] && in_table '| \`fuzz-two\` | 400 runs |'"
 check 'a target that is new runs alone' "evidence 6 judge docs late && ran docs late"
-check 'pages are not code' "echo more >>src/README.md && evidence 6 judge docs python && ran_nothing"
+check 'pages are not code' "
+    echo more >>src/README.md && evidence 6 judge docs python && ran_nothing"
 check 'other code: rows say so, and where they ran' "
     echo more >>src/code.h && evidence --table judge docs >/dev/null; ! [ -f ran ] &&
     in_table '| \`judge\` | 1 | 0 | 0 | not run on this code; last on $commit | $today | ' &&
@@ -115,7 +118,8 @@ check 'a failure: the others run, its row and the last line say so, and it runs 
     : >FAIL && evidence 2 docs judge && ran docs && in_table '| \`docs\` | yes | 0 | 0 |'"
 check 'a fuzzer that fails: the other one ends; it runs again from the start' "
     echo fuzz_one >FAIL && echo 2 >>src/code.h && ! evidence 4 docs &&
-    tail -n 1 out | grep -qx 'failed, or not run: fuzz-one' && in_table '| \`fuzz-two\` | 200 runs' &&
+    tail -n 1 out | grep -qx 'failed, or not run: fuzz-one' &&
+    in_table '| \`fuzz-two\` | 200 runs' &&
     : >FAIL && evidence 4 docs && in_table '| \`fuzz-one\` | 200 runs | 0 | 0 |'"
 check 'what could not be installed is skipped, and runs again' "
     ! evidence 4 mcdc && in_table '**skipped** clang-99 could not be installed' &&
