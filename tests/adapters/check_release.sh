@@ -153,8 +153,8 @@ template <class T> struct LinearSolver {
 };
 int main() {
     Eigen::SparseMatrix<double> A(2, 2);
-    A.insert(0, 0) = A.insert(1, 1) = 2;
-    A.insert(0, 1) = A.insert(1, 0) = -1;
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) A.insert(i, j) = i == j ? 2 : -1;
     sl::PositiveDefiniteSolver<double, LinearSolver<double>> solver(A);
     LinearSolver<double> &base = solver;
     return (base.solve(Eigen::VectorXd::Ones(2)) - Eigen::VectorXd::Ones(2)).norm() > 1e-14;
