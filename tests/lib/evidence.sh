@@ -41,7 +41,7 @@ code_alone() {
 }
 places='src tools tests bench Makefile sparse_local.h'
 code=$({ git ls-files -co --exclude-standard -- $places 2>/dev/null || find $places -type f; } |
-    code_alone | xargs sha256sum | sha256sum | cut -c 1-12)
+    code_alone | xargs sha256sum 2>/dev/null | sha256sum | cut -c 1-12)
 commit=$(git rev-parse --short HEAD 2>/dev/null || echo none)
 changed=$(git status --porcelain -- $places 2>/dev/null | cut -c 4- | code_alone)
 commit=$commit${changed:+-changed}
