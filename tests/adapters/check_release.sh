@@ -31,7 +31,7 @@ in_release() { (cd "$release" && find . -type f | sed 's/^..//' | grep "$1"); }
 
 tarball=$(find "$release" -maxdepth 1 -name 'sparse_local-*.tar.gz' ! -name '*-manual*')
 version=$(basename "$tarball" .tar.gz | sed 's/^sparse_local-//')
-check "the checksums" "cd $release && sha256sum --check --strict SHA256SUMS"
+check "the checksums" "used SHA256SUMS && cd $release && sha256sum --check --strict SHA256SUMS"
 check "the contents name each file with its license and checksum" \
     "used CONTENTS.md && cd $release &&
      find * -type f ! -name SHA256SUMS ! -name CONTENTS.md | sort >$dir/files &&
