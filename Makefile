@@ -243,6 +243,9 @@ $(B)/tests/replay_%: $(B)/obj/tests/fuzz/fuzz_%.o $(B)/obj/tests/fuzz/replay.o $
 	$(call say,LINK)
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
+# Of the tools the tests of a fixed list need the list of a folder's files at most.
+FEW_TOOLS = TOOLS=tools/io/dataset.c PAGE= REPLAYS=
+
 # What the variants below share: they differ in B, compiler and flags. PROGRAM is sparse-local, where a script tests it.
 PROGRAM =
 build-tests: $(TEST_PROGRAMS) $(REPLAYS) $(PROGRAM)
@@ -252,13 +255,13 @@ run-tests: build-tests
 PROGRAM_CHECKS = tests/tools/check_program.sh tests/tools/check_output.sh tests/tools/check_hostile.sh
 
 test: deps deps-png ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
-	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh $(PROGRAM_CHECKS)' PROGRAM=$(B)/sparse-local
+	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh tests/tools/check_evidence.sh $(PROGRAM_CHECKS)' PROGRAM=$(B)/sparse-local
 
 # The core, a test of each kind of call, and what most changes break first.
 QUICK = arguments csc factor ordering solve symbolic null_pivots errors options out_of_memory inverse_diagonal change_use constraints_use \
 	submatrix_use fixed save_use batch complex_use refine_local matrix_market pivots_rare
 quick: deps sparse_local.h ## what to run after each edit: the header without SIMD, and tests of each pack
-	@+$(SUB_MAKE) run-tests B=build/quick OPT='-O0 -DSL_NO_SIMD' REPLAYS= TEST_PROGRAMS='$(QUICK:%=build/quick/tests/core/test_%)'
+	@+$(SUB_MAKE) run-tests B=build/quick OPT='-O0 -DSL_NO_SIMD' $(FEW_TOOLS) TEST_PROGRAMS='$(QUICK:%=build/quick/tests/core/test_%)'
 
 test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
 	@+$(SUB_MAKE) run-tests B=build/clang CC=clang
@@ -274,7 +277,7 @@ NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected te
 	test_change_choice test_change_ways
 
 test-no-simd: deps sparse_local.h ## tests of kernels and of choices by their costs, built with -DSL_NO_SIMD
-	@+$(SUB_MAKE) run-tests B=build/no_simd CFLAGS='-DSL_NO_SIMD $(CFLAGS)' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/no_simd CFLAGS='-DSL_NO_SIMD $(CFLAGS)' $(FEW_TOOLS) \
 	TEST_PROGRAMS='$(NO_SIMD:%=build/no_simd/tests/core/%)'
 
 # those of regular systems
@@ -283,17 +286,17 @@ NO_SINGULAR = test_no_singular test_factor_overflow test_solve test_plan test_su
 	test_selected_use test_complex_use test_parts_use test_refine_local test_advice_calls
 
 test-no-singular: deps sparse_local.h ## tests of regular systems, built with -DSL_NO_SINGULAR
-	@+$(SUB_MAKE) run-tests B=build/no_singular CFLAGS='-DSL_NO_SINGULAR $(CFLAGS)' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/no_singular CFLAGS='-DSL_NO_SINGULAR $(CFLAGS)' $(FEW_TOOLS) \
 	TEST_PROGRAMS='$(NO_SINGULAR:%=build/no_singular/tests/core/%)'
 
 THREADED = test_threads test_threads_least test_threads_solve test_ordering_threads test_batch test_batch_factor test_inverse_threads test_change_threads
 
 test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled in
-	@+$(SUB_MAKE) run-tests B=build/openmp OPT='-O2 -fopenmp' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/openmp OPT='-O2 -fopenmp' $(FEW_TOOLS) \
 	TEST_PROGRAMS='$(THREADED:%=build/openmp/tests/core/%)'
 
 test-pthreads: deps sparse_local.h ## the tests of threads, with SL_PTHREADS compiled in
-	@+$(SUB_MAKE) run-tests B=build/pthreads OPT='-O2 -pthread -DSL_PTHREADS' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/pthreads OPT='-O2 -pthread -DSL_PTHREADS' $(FEW_TOOLS) \
 	TEST_PROGRAMS='$(THREADED:%=build/pthreads/tests/core/%)'
 
 # With SL_VERIFY tasks are small in any case.

@@ -59,7 +59,7 @@ PACK_TESTS_pivots = pivots_rare
 PACK_ALSO_pivots = float
 
 $(PACK_NAMES:%=test-pack-%) test-pack-core: test-pack-%: deps sparse_local.h
-	@+$(SUB_MAKE) run-tests B=build/pack_$* TOOLS=tools/io/dataset.c PAGE= REPLAYS= OPT='-O1 -DSL_NO_SIMD' \
+	@+$(SUB_MAKE) run-tests B=build/pack_$* $(FEW_TOOLS) OPT='-O1 -DSL_NO_SIMD' \
 	PACK_FLAGS='$(patsubst %,-DSL_WITH_%,$(shell echo $(filter-out core,$*) $(PACK_ALSO_$*) | tr a-z A-Z))' \
 	TEST_PROGRAMS='$(PACK_TESTS_$*:%=build/pack_$*/tests/core/test_%)'
 

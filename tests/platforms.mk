@@ -128,7 +128,7 @@ platform-table: ## prints the results of the platform targets as a Markdown tabl
 # ---- checkers of memory and of threads ----
 
 races: deps sparse_local.h ## the tests of threads, watched for data races
-	@+$(SUB_MAKE) run-tests B=build/races OPT='-O1 -g -fno-var-tracking -fsanitize=thread' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/races OPT='-O1 -g -fno-var-tracking -fsanitize=thread' $(FEW_TOOLS) \
 	TEST_PROGRAMS='$(THREADED:%=build/races/tests/core/%)'
 
 valgrind: deps ## the tests under valgrind (no AVX-512 there)
@@ -250,8 +250,10 @@ $(FUZZ_RUNS): run-fuzz-%: $(B)/run/%
 judge: deps $(B)/tests/core/test_judge ## JUDGE_COUNT random systems from JUDGE_SEED on: wrong answers with SL_OK and without a signal
 	@JUDGE_COUNT=$(JUDGE_COUNT) JUDGE_SEED=$(JUDGE_SEED) $(B)/tests/core/test_judge
 
-evidence: ## what tests/README.md says of a release: all of its targets beside fuzzers of two hours each, then make test-page
-	@+tests/lib/evidence.sh 7200
+## EVIDENCE  targets of make evidence; nothing: all
+EVIDENCE ?=
+evidence: ## what tests/README.md says of a release: all targets beside all fuzzers, for two hours or FUZZ_SECONDS; goes on where it stopped
+	@+tests/lib/evidence.sh $(if $(filter file,$(origin FUZZ_SECONDS)),7200,$(FUZZ_SECONDS)) $(EVIDENCE)
 
 # ---- a browser ----
 

@@ -1,9 +1,17 @@
 # release.mk: sizes and counts, the flat header, packages, the manual, a release (a part of the Makefile)
 
-.PHONY: header-flat size marginal test-figures test-page release check-release
+.PHONY: header-flat header-pair check-pair size marginal test-figures test-page release check-release
 
 header-flat: build/amalgamate ## writes build/sparse_local_flat.h: the header without self-inclusion, for pasting
 	$(AMALGAMATE) --flat src/sparse_local.in.h build/sparse_local_flat.h LICENSE
+
+header-pair: build/amalgamate ## writes build/pair: sparse_local.h with the declarations, sparse_local.c with the bodies
+	@mkdir -p build/pair
+	$(AMALGAMATE) --declarations src/sparse_local.in.h build/pair/sparse_local.h LICENSE
+	$(AMALGAMATE) --bodies src/sparse_local.in.h build/pair/sparse_local.c LICENSE
+
+check-pair: header-pair sparse_local.h ## do these two files give the calls, the code and the bits of the header?
+	@CC='$(CC)' CXX='$(CXX)' tests/core/check_pair.sh build/pair sparse_local.h
 
 size: sparse_local.h build/amalgamate build/deps.ok ## sizes and compile times of the core and of all; with SIZE=full of each pack; fails above the limits
 	@tools/build/size.sh
@@ -40,8 +48,9 @@ release: check-header docs npm wheels ## build/release: headers, tarball, manual
 	@test -z "$$(git status --porcelain)" || { echo 'release: there are changes that are not committed'; exit 1; }
 	@case $(VERSION) in 0.*) ;; *) test -f tests/abi/sparse_local-$(VERSION).h || { echo 'release: make abi-record, and commit it'; exit 1; } ;; esac
 	@rm -rf build/release && mkdir -p build/release
-	@cp sparse_local.h tools/adapters/*.h tools/adapters/*.hpp build/release
+	@cp sparse_local.h tools/adapters/sparse_local* build/release
 	@$(MAKE) --no-print-directory header-flat && cp build/sparse_local_flat.h build/release
+	@$(MAKE) --no-print-directory header-pair && mkdir build/release/pair && cp build/pair/sparse_local.[ch] build/release/pair
 	@$(MAKE) --no-print-directory header PACKS=core && cp build/sparse_local_core.h build/release
 	@git archive --format=tar --prefix=sparse_local-$(FULL_VERSION)/ HEAD | gzip -9n >$(RELEASE).tar.gz
 	@tar --sort=name --owner=0 --group=0 --mtime="$$(git log -1 --format=@%ct)" -cf - -C build manual | gzip -9n >$(RELEASE)-manual.tar.gz
@@ -52,4 +61,4 @@ release: check-header docs npm wheels ## build/release: headers, tarball, manual
 	@ls -l build/release build/release/python
 
 check-release: release ## the files of a release, each used by itself in an empty folder
-	@CC='$(CC)' PYTHON='$(PYTHON)' tests/adapters/check_release.sh build/release
+	@CC='$(CC)' CXX='$(CXX)' PYTHON='$(PYTHON)' WINE='$(WINE)' SOURCE_DATE_EPOCH=$(COMMIT_TIME) tests/adapters/check_release.sh build/release

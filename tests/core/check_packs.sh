@@ -174,6 +174,7 @@ extern "C" {
 }
 #endif
 #endif /* SPARSE_LOCAL_H */
+/* ---- bodies ---- */
 #if defined(SPARSE_LOCAL_IMPLEMENTATION) && !defined(SPARSE_LOCAL_IMPLEMENTED)
 #define SPARSE_LOCAL_IMPLEMENTED
 /* base: what all need */
@@ -290,6 +291,49 @@ check '--packs: an unknown one is an error that lists the known ones' '
     grep -q "fix: name some of: change, save, wide$" refused && [ ! -e x.h ]'
 check '--packs --flat' '$amalgamate --flat --packs change src/small.in.h flat.h &&
     runs flat.h 103 && ! grep -q "include SL_HEADER" flat.h'
+# pair NAME OPTION ...: NAME.h and NAME.c
+pair() {
+    pair=$1
+    shift
+    $amalgamate --declarations "$@" src/small.in.h $pair.h &&
+        $amalgamate --bodies "$@" src/small.in.h $pair.c
+}
+# pair_runs NAME SUM FLAG ...: a program of its two files, without a warning, in C and in C++
+pair_runs() {
+    pair=$1 sum=$2
+    shift 2
+    $cc -std=c99 $warnings "$@" -c $pair.c -o pair.o || return 1
+    for language in "$cc -std=c99" "$cxx -x c++ -std=c++11"; do
+        $language $warnings -DHEADER="\"$pair.h\"" -DSUM="$sum" "$@" -c user.c -o user.o &&
+            $cxx user.o pair.o -o user && ./user || return 1
+    done
+}
+check '--declarations, --bodies: one API, each line of the header once' '
+    pair pair && pair_runs pair 3 && pair_runs pair 103 -DSL_WITH_ALL &&
+    ! grep -e sli_ -e SPARSE_LOCAL_IMPLEMENTED pair.h && ! grep "include SL_HEADER" pair.c &&
+    $amalgamate --flat src/small.in.h flat.h &&
+    $cc -fpreprocessed -dD -E -P pair.h >lines && $cc -fpreprocessed -dD -E -P pair.c >more &&
+    sed -n "/IMPLEMENTATION.*&&/,\$p" more >>lines &&
+    $cc -fpreprocessed -dD -E -P flat.h | cmp - lines'
+check '--declarations: a call without its pack is an error that names the macro' '
+    needs pair.h "sl_change(1)" SL_WITH_CHANGE &&
+    needs pair.h "sl_save_change()" SL_WITH_SAVE_and_SL_WITH_CHANGE -DSL_WITH_CHANGE'
+check '--declarations, --bodies: the contents are where they say' '
+    for file in pair.h pair.c; do
+        sed -n "s/^ \* *\([0-9]*\) \(impl.\)* *\([a-z_.]*\).*/\1 \3/p" $file >contents &&
+        [ -s contents ] && while read -r line name; do
+            sed -n "${line}p" $file | grep -q "$name" || exit 1
+        done <contents || exit 1
+    done && grep -q " config.h " pair.h && ! grep -q " config.h " pair.c'
+check '--declarations, --bodies: of one pack' 'pair changing --packs change &&
+    pair_runs changing 103 && grep -q "include \"changing.h\"" changing.c'
+check '--bodies: of another version than the header' '
+    sed "s/VERSION_MINOR 2/VERSION_MINOR 9/" pair.h >other.h &&
+    sed "s/pair.h/other.h/" pair.c >x.c &&
+    refused "of another version" $cc -std=c99 -fsyntax-only x.c'
+check '--bodies: a manifest that does not say where they begin' '
+    sed "/---- bodies/d" src/small.in.h >src/no_half.in.h &&
+    refused "where the bodies begin" $amalgamate --bodies src/no_half.in.h x.h && [ ! -e x.h ]'
 check '--comments' '$amalgamate --comments --packs "" src/small.in.h read.h && runs read.h 3 &&
     grep -q "^ \* in two lines. \*/" read.h && grep -q "^   \* number \*/" read.h &&
     grep -q "^             \* two lines \*/" read.h && ! grep -q "are in src/impl" read.h'

@@ -1,4 +1,5 @@
 /* test_forged_pattern.c: rows out of range are refused, even with the right hash of the pattern */
+#include "tests/lib/no_kernels.h"
 #define SPARSE_LOCAL_IMPLEMENTATION
 #define SL_STATIC
 #include "sparse_local.h"

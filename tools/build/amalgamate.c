@@ -1,10 +1,13 @@
 /* amalgamate.c: writes the single header sparse_local.h from the parts that the manifest lists
  *
- *     amalgamate [--check] [--flat] [--comments] [--packs "change save"] [--home URL]
- *                MANIFEST OUT [LICENSE]
+ *     amalgamate [--check] [--flat] [--declarations] [--bodies] [--comments]
+ *                [--packs "change save"] [--home URL] MANIFEST OUT [LICENSE]
  *
  * --check   compares OUT with what would be written and writes nothing.
  * --flat    expands a template at each of its includes; the result does not include itself.
+ * --declarations, --bodies  the two files of the pair: OUT has what is before the heading
+ *           "---- bodies" of the manifest, or what follows it and an include of the other, which
+ *           has the name of OUT with .h at its end. Both are flat.
  * --comments  keeps the comments of the implementation.
  * --packs   the header has the core and these packs only; "" is the core.
  * --home    an address, in the first lines of the header; "" is none.
@@ -66,8 +69,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char usage[] = "amalgamate [--check] [--flat] [--comments] [--packs \"change save\"] "
-                            "[--home URL] MANIFEST OUT [LICENSE]";
+static const char usage[] =
+    "amalgamate [--check] [--flat] [--declarations] [--bodies] [--comments] "
+    "[--packs \"change save\"] [--home URL] MANIFEST OUT [LICENSE]";
 
 static void append_license(text *out, const char *path) {
     text license = {NULL, 0, 0};
@@ -137,6 +141,10 @@ int main(int argc, char **argv) {
             only_check = 1;
         else if (strcmp(*args, "--flat") == 0)
             j.is_flat = 1;
+        else if (strcmp(*args, "--declarations") == 0)
+            j.is_flat = 1, j.half = DECLARATIONS;
+        else if (strcmp(*args, "--bodies") == 0)
+            j.is_flat = 1, j.half = BODIES;
         else if (strcmp(*args, "--comments") == 0)
             j.keeps_comments = 1;
         else if (strcmp(*args, "--packs") == 0 && n_args > 1)
@@ -163,6 +171,7 @@ int main(int argc, char **argv) {
     make_body(&j, manifest, undefined.bytes);
     if (!*j.version[0] || !*j.version[1] || !*j.version[2])
         fail(args[0], 0, "no part defines SL_VERSION_*", NULL);
+    keep_half(&j);
 
     size_t shift = banner(&out, &j, 0);
     out.length = 0;

@@ -154,7 +154,8 @@ size_t banner(text *out, const job *j, size_t shift) {
         append_string(out, "\n");
         lines++;
     }
-    if (!j->keeps_comments) {
+    lines += append_use(out, j);
+    if (!j->keeps_comments && j->half != DECLARATIONS) {
         append_string(out, " * The comments of the implementation are in src/impl.\n");
         lines++;
     }

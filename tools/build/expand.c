@@ -222,6 +222,10 @@ static void emit_other(job *j, const source *s, const char *line, size_t length)
         emit_lines(j, j->undefinitions);
         return;
     }
+    if (is_heading && strncmp(line, "/* ---- bodies", 14) == 0) {
+        j->bodies_at = j->body.length;
+        j->bodies_line = j->lines;
+    }
     if (is_heading && j->is_selection) {
         j->heading.length = 0;
         append(&j->heading, line, length);

@@ -17,6 +17,9 @@ typedef struct entry {
     int is_guarded;
 } entry;
 
+/* What is written: all of the header, or one file of the pair. */
+typedef enum half { WHOLE, DECLARATIONS, BODIES } half;
+
 /* A macro that is a path in quotes. */
 typedef struct named_path {
     char name[PATH_SIZE], path[PATH_SIZE];
@@ -26,6 +29,7 @@ typedef struct job {
     char folder[PATH_SIZE]; /* of the manifest, with a trailing slash; "" is the current folder */
     const char *name;       /* of the header, without its folder */
     const char *home;       /* an address, or NULL */
+    half half;
     int is_flat;
     int keeps_comments;
     int is_in_comment; /* the next line of the implementation begins there, */
@@ -33,6 +37,7 @@ typedef struct job {
     size_t dropped, indentation; /* columns of the last line that did not: left out, kept */
     text body;
     size_t lines;
+    size_t bodies_at, bodies_line; /* where the bodies begin: bytes and lines before them */
     entry entries[ENTRIES_MAX];
     size_t n_entries;
     char sections[SECTIONS_MAX][PATH_SIZE]; /* templates that parts include */
@@ -112,6 +117,17 @@ const char *included_path(job *j, const char *line, size_t *length);
 /* Emits the templates, each in a section of its own. Before them the header that includes itself,
  * SLI_SELF_INCLUSION, checks that SL_HEADER is not another version of it. */
 void emit_sections(job *j);
+
+/* Appends an #error, after an #if that holds where the header that is included has another
+ * version. also: what has to hold besides; what: the error. */
+void append_version_check(text *to, const job *j, const char *also, const char *what);
+
+/* Cuts the body and the table of contents to j->half. The bodies then begin with an include of the
+ * declarations. */
+void keep_half(job *j);
+
+/* Appends lines of the banner that say what a half is compiled with; returns how many. */
+size_t append_use(text *out, const job *j);
 
 /* Appends an #undef of each internal macro that the body defines and nowhere undefines. */
 void find_undefined(text *undefined, const job *j);

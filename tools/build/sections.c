@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The macro that selects the section of a template: SLI_INL_ and its base name in capitals. */
@@ -109,23 +110,32 @@ void close_list(job *j, const char *path, size_t count) {
     if (is_new) append_string(&j->list_macros, "#endif\n");
 }
 
+void append_version_check(text *to, const job *j, const char *also, const char *what) {
+    static const char *const names[3] = {"MAJOR", "MINOR", "PATCH"};
+    char line[PATH_SIZE + 64];
+    append_string(to, "#if ");
+    append_string(to, also);
+    for (int v = 0; v < 3; v++) {
+        snprintf(line, sizeof line, "%sSL_VERSION_%s != %s%s", v ? "     " : "(", names[v],
+                 j->version[v], v < 2 ? " || \\\n" : ")\n");
+        append_string(to, line);
+    }
+    snprintf(line, sizeof line, "#error \"%s: %s\"\n#endif\n", j->name, what);
+    append_string(to, line);
+}
+
 void emit_sections(job *j) {
     const char *heading = "/* templates: the header includes them from itself, once for each "
                           "instruction set */\n";
+    text check = {NULL, 0, 0};
     if (j->n_sections == 0) return;
     emit_lines(j, "\n");
     enter(j, "", heading);
     emit_lines(j, heading);
-    emit_lines(j, "#if defined(SLI_SELF_INCLUSION) && \\\n");
-    for (int v = 0; v < 3; v++) {
-        static const char *const names[3] = {"MAJOR", "MINOR", "PATCH"};
-        char check[64];
-        snprintf(check, sizeof check, "    %sSL_VERSION_%s != %s%s", v ? " " : "(", names[v],
-                 j->version[v], v < 2 ? " || \\\n" : ")\n");
-        emit_lines(j, check);
-    }
-    emit_format(j, "#error \"%s: SL_HEADER names another version of the header\"\n", j->name);
-    emit_lines(j, "#endif\n");
+    append_version_check(&check, j, "defined(SLI_SELF_INCLUSION) && \\\n    ",
+                         "SL_HEADER names another version of the header");
+    emit_lines(j, check.bytes);
+    free(check.bytes);
     if (j->n_lists > 0) emit_lines(j, j->list_macros.bytes);
     for (size_t k = 0; k < j->n_sections; k++) {
         char macro[PATH_SIZE + 16];

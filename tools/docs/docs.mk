@@ -2,10 +2,12 @@
 
 .PHONY: docs pictures test-examples
 
-docs: ## build/manual/index.html: tutorial, tasks, API, background; fails if a link leads nowhere, a figure is of no file, or there are too many words
+docs: ## build/manual/index.html: tutorial, tasks, API, background; fails if a document names what does not exist, a figure is of no file, or there are too many words
 	@rm -rf build/manual
 	@HOME_URL='$(HOME_URL)' python3 -B tools/docs/manual.py build/manual
 	@python3 -B tools/docs/test_figures.py -q
+	@python3 -B tools/docs/named_files.py
+	@python3 -B tools/docs/test_named_files.py -q
 
 pictures: programs test-examples ## the pictures of the manual, by the commands in its pages
 	@PROGRAM=$(B)/sparse-local tools/docs/pictures.sh

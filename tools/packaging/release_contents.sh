@@ -17,7 +17,10 @@ describe() {
     sparse_local.h) what='the header' ;;
     sparse_local_core.h) what='the core alone, with the comments of its implementation' ;;
     sparse_local_flat.h) what='the header without self-inclusion, for pasting' ;;
-    *.h | *.hpp) what=$(sed -n '1s/^.. [^:]*: //p' "$1") ;;
+    pair/sparse_local.h) what='the header as two files: the declarations' ;;
+    pair/sparse_local.c) what='the header as two files: the bodies' ;;
+    *.cmake) what=$(sed -n '1s/^# [^:]*: //p' "$1") ;;
+    *.c | *.h | *.hpp) what=$(sed -n '1s/^.. [^:]*: //p' "$1") ;;
     python/*manylinux*.whl) what='the Python package for Linux with glibc' ;;
     python/*musllinux*.whl) what='the Python package for Linux with musl' ;;
     python/*win*.whl)
