@@ -13,7 +13,7 @@ the pairs by each engine of workers.py, and the map. Each stays below so many Gi
 A step leaves its result in one piece or not at all, so that the same command continues with the
 first one that is missing, and pairs with the first answers that are missing.
 
-With --kill the process of the factor is killed when half of L is made, and a worker of each engine
+With --kill the process of the factor is killed when a third of L is in memory, and a worker of each engine
 when it has answered twice: this program then repeats what was lost.
 
 Resistances are compared with solves for all cells, and these with the matrix: FOLDER/raster.csv has
@@ -356,7 +356,7 @@ def peak_bytes(usage):
 
 
 def do(step, options, kill_at=0):
-    """Runs a step as a process; its record with the time, or None if it was killed.
+    """Runs a step as a process: (its record with the time, whether it was killed).
 
     kill_at: bytes of files in its memory with which it is killed; 0: it is not.
     """
@@ -380,10 +380,10 @@ def do(step, options, kill_at=0):
     if not os.path.exists(record_path(options, step)):
         if kill_at and status == signal.SIGKILL:
             print("%s: killed after %.1f s" % (step, seconds), flush=True)
-            return dict(spent, bytes=0)
+            return dict(spent, bytes=0), True
         sys.exit(1)
     with open(record_path(options, step)) as file:
-        return dict(json.load(file), **spent)
+        return dict(json.load(file), **spent), False
 
 
 def machine(options, records):
@@ -442,13 +442,17 @@ def main():
         sys.exit("raster.py: %s has the steps of another job: %s" %
                  (options.folder, records["job"]))
     for step in ["analysis", "factor", *options.engines, "map"]:
-        if os.path.exists(record_path(options, step)) and step in records:
+        if step in records and os.path.exists(record_path(options, step)):
             print("%s: is there" % step, flush=True)
             continue
+        kill_at = 0
         if step == "factor" and options.kill and "killed factor" not in records:
-            half = 4 * records["analysis"]["panels"]
-            records["killed factor"] = do(step, options, half)
-        records[step] = do(step, options)
+            kill_at = 8 * records["analysis"]["panels"] // 3
+        record, is_killed = do(step, options, kill_at)
+        if is_killed:
+            records["killed factor"] = record
+            record, _ = do(step, options)
+        records[step] = record
         with open(steps_path, "w") as file:
             json.dump(records, file, indent=1)
         print("%s: %.4g s" % (step, records[step]["seconds"]), flush=True)

@@ -9,7 +9,8 @@ pairs of some focal cells, or between random pairs of cells: FOLDER/resistances.
 
 The factor is a file in FOLDER that every worker maps. A task is a call such as F.pairs(rows,
 columns): less than 1 kB and the rows. Answers are kept in FOLDER as they come. If a worker dies,
-Dask repeats what it had begun. With other engines the program ends, and the same command computes
+Dask repeats what it had begun (a cluster of your own needs --memory-limit 0, since Dask counts
+pages of the file as memory of each worker). With other engines the program ends, and the same command computes
 what is missing. Workers on other machines need to see FOLDER under the same path. Under MPI one
 rank hands out the tasks.
 """
@@ -143,8 +144,9 @@ def executor(engine, workers, scheduler):
             yield pool
     elif engine == "dask":
         from distributed import Client
+        # without a limit, since pages of a mapped file count as memory of the worker
         cluster = dict(address=scheduler) if scheduler else dict(
-            n_workers=workers, threads_per_worker=1, dashboard_address=None)
+            n_workers=workers, threads_per_worker=1, dashboard_address=None, memory_limit=0)
         with Client(**cluster) as client, client.get_executor() as pool:
             yield pool
     else:
