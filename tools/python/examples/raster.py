@@ -363,22 +363,20 @@ def do(step, options, kill_at=0):
     begin, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
     program = subprocess.Popen([sys.executable, "-B", os.path.abspath(__file__), "--step", step] +
                                sys.argv[1:])
-    while kill_at and program.poll() is None:
-        if shared_bytes(program.pid) >= kill_at:
+    pid = is_killed = 0
+    while pid == 0:
+        if kill_at and shared_bytes(program.pid) >= kill_at:
             program.kill()
-            break
+            is_killed, kill_at = 1, 0
         time.sleep(POLL)
-    status, usage = 0, None
-    if program.poll() is None:
-        _, status, usage = os.wait4(program.pid, 0)
-        program.returncode = status
+        pid, status, usage = os.wait4(program.pid, os.WNOHANG if kill_at else 0)
+    program.returncode = status
     seconds = time.perf_counter() - begin
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    usage = usage or after
     spent = {"seconds": seconds, "peak": peak_bytes(usage), "processor_s":
              after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime}
     if not os.path.exists(record_path(options, step)):
-        if kill_at and status == signal.SIGKILL:
+        if is_killed:
             print("%s: killed after %.1f s" % (step, seconds), flush=True)
             return dict(spent, bytes=0), True
         sys.exit(1)

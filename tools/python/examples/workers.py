@@ -10,9 +10,9 @@ pairs of some focal cells, or between random pairs of cells: FOLDER/resistances.
 The factor is a file in FOLDER that every worker maps. A task is a call such as F.pairs(rows,
 columns): less than 1 kB and the rows. Answers are kept in FOLDER as they come. If a worker dies,
 Dask repeats what it had begun (a cluster of your own needs --memory-limit 0, since Dask counts
-pages of the file as memory of each worker). With other engines the program ends, and the same command computes
-what is missing. Workers on other machines need to see FOLDER under the same path. Under MPI one
-rank hands out the tasks.
+pages of the file as memory of each worker). With other engines the program ends, and the same
+command computes what is missing. Workers on other machines need to see FOLDER under the same path.
+Under MPI one rank hands out the tasks.
 """
 import argparse
 import concurrent.futures
