@@ -8,13 +8,13 @@ focal cells, FOLDER/resistances.npy, and the current through each cell if it ent
 cell and leaves at all others, FOLDER/current.npy and current.png.
 
 The steps are processes: the order and the structure of L (analysis.slf), the factor (factor.slf),
-the pairs by each engine of workers.py, and the map. Each stays below so many GiB of memory as
---memory says. L may be larger: it is in files without a name in FOLDER, whose pages are written out.
-A step leaves its result in one piece or not at all, so that the same command continues with the
-first one that is missing, and pairs with the first answers that are missing.
+the pairs by each engine of workers.py, and the map. --memory limits each of them but those of the
+pairs, which only read the factor. L may be larger: it is in files without a name in FOLDER, whose
+pages are written out. A step leaves its result in one piece or not at all, so that the same command
+continues with the first one that is missing, and pairs with the first answers that are missing.
 
-With --kill the process of the factor is killed when a third of L is in memory, and a worker of each engine
-when it has answered twice: this program then repeats what was lost.
+With --kill the process of the factor is killed when a third of L is in memory, and a worker of each
+engine when it has answered twice: this program then repeats what was lost.
 
 Resistances are compared with solves for all cells, and these with the matrix: FOLDER/raster.csv has
 the times and sizes, FOLDER/checks.json what was found.

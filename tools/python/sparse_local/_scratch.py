@@ -1,8 +1,8 @@
 """options.allocator for objects that are larger than the memory: large blocks in files of a folder.
 
-A block of at least LARGE bytes is a file that is mapped, and whose pages the system writes out where
-memory is short. It has no name on most systems, and vanishes with the block or the process. Its
-space is reserved, so that a full disk is an allocation that fails.
+A block of at least LARGE bytes is a mapped file, whose pages the system writes out where memory is
+short. It has no name on most systems, and vanishes with the block or the process. Its space is
+reserved, so that a full disk is an allocation that fails.
 """
 import ctypes
 import mmap

@@ -62,7 +62,8 @@ def test_known_answers(tmp_path):
     assert np.allclose(through, wanted[1], rtol=1e-9)
     assert records["processes"]["pairs"] == 300
     table = (tmp_path / "raster.csv").read_text().split("\n")
-    assert [line.split(",")[0] for line in table[1:-1]] == ["analysis", "factor", "processes", "map"]
+    steps = [line.split(",")[0] for line in table[1:-1]]
+    assert steps == ["analysis", "factor", "processes", "map"]
     # what is there stays; another job and wrong answers are refused
     assert run(tmp_path, *arguments).stdout.count(": is there\n") == 4
     refused = run(tmp_path, *arguments[:-1], "26")

@@ -48,8 +48,8 @@ def test_refusals(tmp_path):
     for folder in (tmp_path / "none", __file__):
         with pytest.raises(sl.ArgumentError, match="scratch is a folder"):
             sl.Factor(grid(5), scratch=folder)
-    out = subprocess.run([sys.executable, "-B", "-c", FULL_DISK, tmp_path, os.path.dirname(__file__)],
-                         capture_output=True, text=True)
+    command = [sys.executable, "-B", "-c", FULL_DISK, tmp_path, os.path.dirname(__file__)]
+    out = subprocess.run(command, capture_output=True, text=True)
     assert out.stdout == "refused\n", out.stderr
 
 
