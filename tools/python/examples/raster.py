@@ -363,15 +363,16 @@ def do(step, options, kill_at=0):
     begin, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
     program = subprocess.Popen([sys.executable, "-B", os.path.abspath(__file__), "--step", step] +
                                sys.argv[1:])
-    pid = is_killed = 0
+    pid = is_killed = seconds = 0
     while pid == 0:
         if kill_at and shared_bytes(program.pid) >= kill_at:
             program.kill()
             is_killed, kill_at = 1, 0
+            seconds = time.perf_counter() - begin  # before its files are given back
         time.sleep(POLL)
         pid, status, usage = os.wait4(program.pid, os.WNOHANG if kill_at else 0)
     program.returncode = status
-    seconds = time.perf_counter() - begin
+    seconds = seconds or time.perf_counter() - begin
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     spent = {"seconds": seconds, "peak": peak_bytes(usage), "processor_s":
              after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime}
