@@ -18,7 +18,7 @@ SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
 .PHONY: deps-eigen deps-packaging test-adapters test-clients test-osqp bench-osqp shared test-shared deps-abi abi abi-record \
-	install uninstall check-install deps-python deps-python-more deps-torch deps-wheels wheels old-debian test-wheels test-home test-python test-workers test-python-build bench-python deps-octave octave test-octave
+	install uninstall check-install deps-python deps-python-more deps-torch deps-wheels wheels old-debian test-wheels test-home test-python test-workers raster test-python-build bench-python deps-octave octave test-octave
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -218,8 +218,16 @@ test-python: deps-python sparse_local.h ## the package of tools/python, from its
 	@cp -r tools/python/tests tools/python/examples tools/python/gallery tools/python/README.md build/python/source
 	@cd build/python && PYTHONPATH=site $(PYTHON) -B -m pytest -q -p no:cacheprovider $(if $(PYTHON_TESTS),$(PYTHON_TESTS:%=source/tests/%),source/tests)
 
-test-workers: deps-python-more ## of these the tests of workers: processes, joblib, Dask and MPI on one factor
-	@$(MAKE) --no-print-directory test-python PYTHON_TESTS='test_shared.py test_workers.py'
+test-workers: deps-python-more ## of these the tests of workers: processes, joblib, Dask and MPI on one factor, and of large rasters
+	@$(MAKE) --no-print-directory test-python PYTHON_TESTS='test_shared.py test_workers.py test_raster.py'
+
+## RASTER   arguments of tools/python/examples/raster.py for make raster
+RASTER ?= build/raster --size 1000 --points 400 --engines dask mpi --kill
+raster: deps-python-more ## pair resistances and currents of a raster, each step killed once and resumed: RASTER='FOLDER --size 5745 --points 1415 --engines dask mpi --kill'
+	@$(MAKE) --no-print-directory build/python/installed
+	@OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
+	COMMIT=$$(git describe --always --dirty 2>/dev/null) COMPILER="$$($(CC) --version | sed 's/^\([a-z]*\).* \([0-9.]*\)$$/\1 \2/;q')" \
+	PYTHONPATH=build/python/site $(PYTHON) -B tools/python/examples/raster.py $(RASTER)
 
 # The source distribution and the wheel by `build`, without a network; each is installed and runs the example, whose picture is kept.
 test-python-build: deps-python sparse_local.h ## python3 -m build, offline: both distributions are installed and draw a picture

@@ -9,9 +9,10 @@ pairs of some focal cells, or between random pairs of cells: FOLDER/resistances.
 
 The factor is a file in FOLDER that every worker maps. A task is a call such as F.pairs(rows,
 columns): less than 1 kB and the rows. Answers are kept in FOLDER as they come. If a worker dies,
-Dask repeats what it had begun. With other engines the program ends, and the same command computes
-what is missing. Workers on other machines need to see FOLDER under the same path. Under MPI one
-rank hands out the tasks.
+Dask repeats what it had begun (a cluster of your own needs --memory-limit 0, since Dask counts
+pages of the file as memory of each worker). With other engines the program ends, and the same
+command computes what is missing. Workers on other machines need to see FOLDER under the same path.
+Under MPI one rank hands out the tasks.
 """
 import argparse
 import concurrent.futures
@@ -37,22 +38,36 @@ def conductances(size):
     return np.random.default_rng(1).lognormal(0.0, 1.0, (size, size))
 
 
+def links(cells):
+    """The conductances between each cell and the next one of its row, and the one below it."""
+    right, below = np.zeros(cells.shape), np.zeros(cells.shape)
+    right[:, :-1] = 0.5 * (cells[:, :-1] + cells[:, 1:])
+    below[:-1] = 0.5 * (cells[:-1] + cells[1:])
+    return right, below
+
+
 def network(cells):
-    """The Laplacian of the network that joins each cell with its four neighbors.
+    """The Laplacian of the network that joins each cell with its four neighbors: its lower triangle
+    in compressed columns.
 
     Cell 0 is joined with the ground, so that the matrix is regular. That changes no resistance: all
     the current that goes in at one cell comes out at the other.
     """
-    n = cells.size
-    index = np.arange(n, dtype=np.int32).reshape(cells.shape)
-    i = np.concatenate([index[:, :-1].ravel(), index[:-1].ravel()])
-    j = np.concatenate([index[:, 1:].ravel(), index[1:].ravel()])
-    g = 0.5 * (cells.flat[i] + cells.flat[j])
-    diagonal = np.bincount(i, g, n) + np.bincount(j, g, n)
-    diagonal[0] += cells.flat[0]
-    k = index.ravel()
-    return sparse_local.from_triplets(np.concatenate([k, j]), np.concatenate([k, i]),
-                                      np.concatenate([diagonal, -g]), n)
+    rows, columns = cells.shape
+    entries = np.empty((rows, columns, 3))  # of the column of a cell: its own, right, below
+    entries[..., 1], entries[..., 2] = links(-cells)
+    entries[..., 0] = -entries[..., 1] - entries[..., 2]
+    entries[:, 1:, 0] -= entries[:, :-1, 1]
+    entries[1:, :, 0] -= entries[:-1, :, 2]
+    entries[0, 0, 0] += cells[0, 0]
+    is_there = np.ones(entries.shape, dtype=bool)
+    is_there[:, -1, 1] = is_there[-1, :, 2] = False
+    entries = entries[is_there]
+    cell = np.arange(cells.size, dtype=np.int32).reshape(rows, columns, 1)
+    neighbors = (cell + np.array([0, 1, columns], dtype=np.int32))[is_there]
+    begins = np.zeros(cells.size + 1, dtype=np.int32)
+    np.cumsum(is_there.sum(axis=2, dtype=np.int32), dtype=np.int32, out=begins[1:])
+    return sparse_local.CscArrays((cells.size, cells.size), begins, neighbors, entries)
 
 
 def mapped_factor(folder, size):
@@ -129,8 +144,9 @@ def executor(engine, workers, scheduler):
             yield pool
     elif engine == "dask":
         from distributed import Client
+        # without a limit, since pages of a mapped file count as memory of the worker
         cluster = dict(address=scheduler) if scheduler else dict(
-            n_workers=workers, threads_per_worker=1, dashboard_address=None)
+            n_workers=workers, threads_per_worker=1, dashboard_address=None, memory_limit=0)
         with Client(**cluster) as client, client.get_executor() as pool:
             yield pool
     else:

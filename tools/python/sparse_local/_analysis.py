@@ -5,10 +5,12 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._errors import ArgumentError
-from ._library import Handle, Stats, as_dict, check, lib
-from ._matrix import CscArrays, Matrix
+from ._library import Handle, SavedSet, Stats, as_dict, check, lib
+from ._matrix import CscArrays, Matrix, check_triangle
 from ._options import Chosen, default_options, split
 from ._threads import calls
+
+_SAVED_ANALYSIS = 2  # SL_SAVED_ANALYSIS: without numbers
 
 
 class Analysis:
@@ -17,7 +19,7 @@ class Analysis:
     A           n x n, as for Factor. Values are read only with pivoted=True.
     triangle    'lower' or 'upper': reads this triangle only; None: both triangles are the same
                 matrix, or one is stored.
-    ordering, perm, block_size, purpose, threads, pivoted  as for Factor.
+    ordering, perm, block_size, purpose, threads, pivoted, scratch  as for Factor.
 
     Errors    PatternError: not square, malformed, or both triangles with different patterns;
               ArgumentError: an option, or a perm that is no permutation (row: its first wrong
@@ -28,8 +30,9 @@ class Analysis:
 
     def __init__(self, A, **options):
         chosen, numbers = split(options)
-        if numbers.keys() - {"threads"}:
-            raise TypeError("%s are options of factor" % ", ".join(numbers.keys() - {"threads"}))
+        only = numbers.keys() - chosen.keys()
+        if only:
+            raise TypeError("%s are options of factor" % ", ".join(only))
         self._analyze(Matrix(A), **chosen)
 
     @classmethod
@@ -99,6 +102,22 @@ class Analysis:
                 raise ArgumentError("the analyzed matrix was stored by rows")
             matrix = Matrix(A.tocsc() if matrix.is_turned else A.tocsr(), self._is_ordered)
         return matrix
+
+    def save(self, path):
+        """Writes the analysis to a file, which load reads; replaced as by Factor.save."""
+        from ._files import encoded
+        check(lib.sl_save(encoded(path), None, None, SavedSet(self._symbolic.pointer), None),
+              path=path)
+
+    @classmethod
+    def load(cls, path, *, map=False, checks="checked", triangle=None, is_complex=False):
+        """An analysis from a file, also from that of a factor; the arguments as for Factor.load."""
+        from ._files import load_flags, encoded
+        check_triangle(triangle)
+        loaded = SavedSet(wanted=_SAVED_ANALYSIS)
+        check(lib.sl_load(loaded, encoded(path), None, 0, load_flags(checks, map), None), path=path)
+        return cls._of(loaded.symbolic, triangle, arrays.COMPLEX if is_complex else arrays.REAL,
+                       is_ordered=False)
 
     @property
     def perm(self):

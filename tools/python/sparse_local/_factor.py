@@ -51,6 +51,8 @@ class Factor(Solves, Entries, Changes, Files):
                     need; not with null_pivots='skip', and without entries of the inverse.
     regularization  see sparse_local.h; 1e-8 suits refinement. signs: n signs of the pivots.
     growth_limit, error_limit  see sparse_local.h; 0: the defaults.
+    scratch         a folder: arrays of 16 MB and more are mapped files there, without a name, which
+                    the system writes out where memory is short, so that a factor may exceed it.
     storage         'double', 'float': half the bytes for L; solutions have the accuracy of float
                     until refine; 'complex': half of L of a complex matrix.
 

@@ -41,7 +41,7 @@ class Files:
                     file claims, memory is allocated for what is in it.
         """
         check_bytes(path, max_bytes)
-        flags = choice(CHECKS, checks, "checks") | (MAPPED if map else 0)
+        flags = load_flags(checks, map)
         if not map:
             return cls._loaded((encoded(path), None, 0, flags), triangle, threads, is_complex,
                                definite, path)
@@ -96,11 +96,19 @@ class Files:
     @classmethod
     def _taken(cls, loaded, triangle, threads=None, is_complex=False, definite=False):
         """The owner of an analysis and a factor that were loaded."""
+        if not loaded.factor:
+            lib.sl_saved_set_free(ctypes.byref(loaded))
+            raise ArgumentError("the file has no factor")
         kind = arrays.COMPLEX if is_complex else arrays.REAL
         analysis = Analysis._of(loaded.symbolic, triangle, kind, is_ordered=False)
         self = cls._of(analysis, loaded.factor, threads, definite)
         self._check_definite()
         return self
+
+
+def load_flags(checks, map):
+    """The flags of sl_load."""
+    return choice(CHECKS, checks, "checks") | (MAPPED if map else 0)
 
 
 def encoded(path):

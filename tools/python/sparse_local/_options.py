@@ -4,6 +4,7 @@ import numpy as np
 from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._library import new_options
+from ._scratch import set_scratch
 from ._threads import set_threads
 
 ORDERINGS = {"nd": 0, "metis": 1, "given": 3, "natural": 4, "mindeg": 5}
@@ -12,10 +13,11 @@ _NULL_PIVOTS = {"refuse": 0, "skip": 2}
 POSITIVE = 1
 _STORAGES = {"double": 0, "float": 1, "complex": 2}
 
-ANALYSIS = ("triangle", "ordering", "perm", "block_size", "purpose", "threads", "pivoted")
+ANALYSIS = ("triangle", "ordering", "perm", "block_size", "purpose", "threads", "pivoted",
+            "scratch")
 NUMBERS = ("null_pivots", "null_tolerance", "mass", "null_vector", "consistency_tolerance",
            "regularization", "signs", "growth_limit", "error_limit", "storage", "definite",
-           "threads")
+           "threads", "scratch")
 
 
 def choice(names, name, what):
@@ -35,7 +37,7 @@ class Chosen:
         self._kept = []
 
     def analysis(self, ordering="nd", perm=None, block_size=0, purpose="many solves",
-                 threads=None):
+                 threads=None, scratch=None):
         """Sets what the analysis reads."""
         options = self.options
         options.ordering = choice(ORDERINGS, "given" if perm is not None else ordering, "ordering")
@@ -49,11 +51,12 @@ class Chosen:
                 perm = arrays.COMPLEX.set(arrays.option_array(perm, self._n, np.int32, "perm"))[0]
         self._array("perm", perm, np.int32)
         set_threads(options, threads)
+        set_scratch(options, scratch)
         return self
 
     def numbers(self, null_pivots="refuse", null_tolerance=0.0, mass=None, null_vector=None,
                 consistency_tolerance=0.0, regularization=0.0, signs=None, growth_limit=0.0,
-                error_limit=0.0, storage="double", threads=None):
+                error_limit=0.0, storage="double", threads=None, scratch=None):
         """Sets what the factorization reads."""
         options = self.options
         options.pivots = choice(_NULL_PIVOTS, null_pivots, "null_pivots")
@@ -75,6 +78,7 @@ class Chosen:
             signs = np.repeat(arrays.option_array(signs, self._n, np.int32, "signs"), 2)
         self._array("signs", signs, np.int32)
         set_threads(options, threads)
+        set_scratch(options, scratch)
         return self
 
     def _array(self, name, values, dtype, columns=1):

@@ -7,10 +7,9 @@ import numpy as np
 from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._factor import Factor
-from ._files import CHECKS, MAPPED, check_bytes, encoded, mapped
+from ._files import check_bytes, encoded, load_flags, mapped
 from ._library import Handle, SavedSet, Stats, as_dict, check, lib, new_options
 from ._matrix import check_triangle
-from ._options import choice
 from ._plan import Region
 from ._threads import calls, set_threads
 
@@ -109,16 +108,13 @@ def load_set(path, *, map=False, checks="checked", triangle=None, threads=None, 
     """
     check_triangle(triangle)
     check_bytes(path, max_bytes)
-    flags = choice(CHECKS, checks, "checks") | (MAPPED if map else 0)
+    flags = load_flags(checks, map)
     loaded, options = SavedSet(), new_options()
     set_threads(options, threads)
 
     def load():
         check(lib.sl_load(ctypes.byref(loaded), encoded(path), None, 0, flags,
                           ctypes.byref(options)), path=path)
-        if not loaded.factor:
-            lib.sl_saved_set_free(ctypes.byref(loaded))
-            raise ArgumentError("the file has no factor")
         return Factor._taken(loaded, triangle, threads, is_complex, definite)
 
     factor = mapped(path, load, dict(checks=checks, triangle=triangle, threads=threads,

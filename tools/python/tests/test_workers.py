@@ -8,11 +8,13 @@ import time
 
 import numpy as np
 import pytest
+import scipy.sparse
 
 import sparse_local as sl
 
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples")
 sys.path.insert(0, FOLDER)
+import raster  # noqa: E402
 import workers  # noqa: E402
 
 PROGRAM = os.path.join(FOLDER, "workers.py")
@@ -62,34 +64,12 @@ def answers(folder):
     return glob.glob(str(folder / "answers-*" / "*.npy"))
 
 
-def workers_of(program, folder):
-    """Processes below the program that map the factor, but for the one that hands out."""
-    parents, found = {}, []
-    for name in glob.glob("/proc/[0-9]*"):
-        try:
-            pid = int(os.path.basename(name))
-            with open(name + "/stat") as file:
-                parents[pid] = int(file.read().rpartition(")")[2].split()[1])
-            with open(name + "/maps") as file:
-                if str(folder / "factor.slf") in file.read():
-                    found.append(pid)
-        except OSError:
-            pass  # it has ended
-
-    def is_below(pid):
-        while pid in parents and pid != program.pid:
-            pid = parents[pid]
-        return pid == program.pid
-
-    return sorted(pid for pid in found if is_below(pid) and pid != program.pid)
-
-
 def kill_a_worker(program, folder):
     """Kills the last of the workers that began, in the middle of the job; how many answers there
     were."""
     end = time.time() + 120
     while time.time() < end and program.poll() is None:
-        found = workers_of(program, folder)
+        found = raster.mapping(program.pid, str(folder / "factor.slf"))
         if len(answers(folder)) >= 5 and len(found) >= 2:
             os.kill(found[-1], signal.SIGKILL)
             return len(answers(folder))
@@ -100,7 +80,8 @@ def kill_a_worker(program, folder):
 def test_resistances(tmp_path):
     """Against those of the pseudo-inverse of the Laplacian, without the ground."""
     cells = workers.conductances(12)
-    A = np.asarray(workers.network(cells).toarray())
+    A = workers.network(cells)
+    A = scipy.sparse.csc_matrix((A.data, A.indices, A.indptr), A.shape).toarray()
     A = A + np.tril(A, -1).T
     A[0, 0] -= cells.flat[0]
     assert abs(A.sum(axis=1)).max() < 1e-12

@@ -1,0 +1,97 @@
+"""examples/raster.py: known answers, a limit on the memory, and every step killed once."""
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples")
+sys.path.insert(0, FOLDER)
+import raster  # noqa: E402
+
+pytestmark = pytest.mark.skipif(not os.path.exists("/proc/self/smaps"), reason="of Linux")
+
+
+def run(folder, *arguments):
+    command = [sys.executable, "-B", os.path.join(FOLDER, "raster.py"), str(folder), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300)
+
+
+def results(folder, *arguments):
+    """(resistances, currents, records of the steps)"""
+    ended = run(folder, *arguments)
+    assert ended.returncode == 0, ended.stderr[-2000:]
+    records = json.loads((folder / "steps.json").read_text())
+    return np.load(folder / "resistances.npy"), np.load(folder / "current.npy"), records
+
+
+def known(cells, points):
+    """Resistances and currents by the pseudo-inverse of a Laplacian, link by link."""
+    rows, columns = cells.shape
+    L, links = np.zeros((cells.size, cells.size)), []
+    for i in range(rows):
+        for j in range(columns):
+            for k, m in ((i, j + 1), (i + 1, j)):
+                if k < rows and m < columns:
+                    links.append((i * columns + j, k * columns + m,
+                                  (cells[i, j] + cells[k, m]) / 2))
+    for a, b, g in links:
+        L[[a, b], [a, b]] += g
+        L[[a, b], [b, a]] -= g
+    inverse = np.linalg.pinv(L)
+    d = np.diag(inverse)[points]
+    b = np.zeros(cells.size)
+    b[points] = -1.0 / (points.size - 1)
+    b[points[0]] = 1.0
+    x, through = inverse @ b, 0.5 * np.abs(b)
+    for a, c, g in links:
+        through[[a, c]] += 0.5 * abs(g * (x[a] - x[c]))
+    return d[:, None] + d - 2.0 * inverse[np.ix_(points, points)], through.reshape(cells.shape)
+
+
+def test_known_answers(tmp_path):
+    cells = np.random.default_rng(7).lognormal(0.0, 1.0, (14, 14))
+    np.save(tmp_path / "cells.npy", cells)
+    arguments = ["--raster", str(tmp_path / "cells.npy"), "--points", "25"]
+    R, through, records = results(tmp_path, *arguments)
+    F = raster.sparse_local.Factor.load(str(tmp_path / "factor.slf"), map=True)
+    wanted = known(cells, raster.workers.AllPairs(F, 25).points)
+    assert np.allclose(R, wanted[0], rtol=1e-9, atol=1e-12)
+    assert np.allclose(through, wanted[1], rtol=1e-9)
+    assert records["processes"]["pairs"] == 300
+    table = (tmp_path / "raster.csv").read_text().split("\n")
+    steps = [line.split(",")[0] for line in table[1:-1]]
+    assert steps == ["analysis", "factor", "processes", "map"]
+    # what is there stays; another job and wrong answers are refused
+    assert run(tmp_path, *arguments).stdout.count(": is there\n") == 4
+    refused = run(tmp_path, *arguments[:-1], "26")
+    assert refused.returncode == 1 and "the steps of another job" in refused.stderr
+    R[0, -1] *= 1.0 + 1e-7
+    np.save(tmp_path / "resistances.npy", R)
+    (tmp_path / "map.json").unlink()
+    refused = run(tmp_path, *arguments)
+    assert refused.returncode == 1 and "resistances differ from those of solves" in refused.stderr
+    np.save(tmp_path / "flat.npy", cells[1:])
+    (tmp_path / "other").mkdir()
+    refused = run(tmp_path / "other", "--raster", str(tmp_path / "flat.npy"))
+    assert refused.returncode == 1 and "not a square of positive conductances" in refused.stderr
+
+
+def test_killed_and_in_little_memory(tmp_path):
+    """The same bits as without a limit, and undisturbed."""
+    size = ["--size", "1000", "--points", "1200"]
+    R, through, records = results(tmp_path / "plain", *size, "--memory", "0")
+    limit = 0.45
+    killed = results(tmp_path / "killed", *size, "--memory", str(limit), "--kill")
+    assert np.array_equal(R, killed[0]) and np.array_equal(through, killed[1])
+    most = limit * (1 << 30)
+    # a busy machine is late to look
+    assert max(killed[2][step]["peak"] for step in ("analysis", "factor", "map")) < 1.25 * most
+    assert records["factor"]["peak"] > 1.3 * most
+    assert killed[2]["killed factor"]["bytes"] == 0
+    assert 2 <= killed[2]["processes"]["answers_when_killed"] < 10
+    assert killed[2]["processes"]["repeated"]
+    with open(tmp_path / "killed" / "checks.json") as file:
+        assert all(check.get("difference", 0.0) < 1e-10 for check in json.load(file))
