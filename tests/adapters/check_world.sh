@@ -101,7 +101,11 @@ sed -i 's/printf.*/good++;/' "$dir/sources/untested/test.c"
 project testless 'b * 0.5'
 echo 'has_tests=no' >>"$dir/recipes/testless.sh"
 project cmade 'b * 0.5'
-printf 'cmake_minimum_required(VERSION 3.5)\nproject(cmade C)\nadd_executable(tests test.c)\n' >"$dir/sources/cmade/CMakeLists.txt"
+cat >"$dir/sources/cmade/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.5)
+project(cmade C)
+add_executable(tests test.c)
+END
 cat >>"$dir/recipes/cmade.sh" <<'END'
 build() {
     cmake_build tests && cp "$dir/build/tests" "$dir/test" &&
