@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4f207fee97f4b30a
+ * FNV-1a of the lines after this comment, without the license: 73be9cbf189cd30c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,28 +33,28 @@
  *   2666 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2730 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2773 impl/ base: the compiler, status, memory, sorting, threads
- *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4966 impl/ matrix: sparse matrices of the caller and of the library
- *   5827 impl/ ordering: fill-reducing orderings of a graph
- *  10584 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12826 impl/ factor: the numbers of L and D
- *  15412 impl/ solve: full and local solves
- *  16924 impl/ singular: null spaces of semidefinite matrices
- *  18175 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20214 impl/ pivots: the order of the pivots by the values of a matrix
- *  20618 impl/ float: L in single precision
- *  20801 impl/ inverse: entries of the inverse, regions
- *  23703 impl/ change: a factor that follows changes of its matrix
- *  25973 impl/ constraints: rows held at values, on a factor that stays
- *  27324 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30050 impl/ fixed: rows fixed at given values
- *  30606 impl/ io: files that are replaced only when they are complete
- *  30825 impl/ files: Matrix Market files, 64-bit indices
- *  31381 impl/ save: factors in files
- *  33352 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34036 impl/ complex: complex Hermitian systems over real factors
- *  34504 impl/ packs: the tables through which the core calls packs
- *  34928 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4082 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4963 impl/ matrix: sparse matrices of the caller and of the library
+ *   5820 impl/ ordering: fill-reducing orderings of a graph
+ *  10539 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12777 impl/ factor: the numbers of L and D
+ *  15363 impl/ solve: full and local solves
+ *  16875 impl/ singular: null spaces of semidefinite matrices
+ *  18126 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20165 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20569 impl/ float: L in single precision
+ *  20752 impl/ inverse: entries of the inverse, regions
+ *  23654 impl/ change: a factor that follows changes of its matrix
+ *  25924 impl/ constraints: rows held at values, on a factor that stays
+ *  27275 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  29993 impl/ fixed: rows fixed at given values
+ *  30549 impl/ io: files that are replaced only when they are complete
+ *  30768 impl/ files: Matrix Market files, 64-bit indices
+ *  31324 impl/ save: factors in files
+ *  33295 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33975 impl/ complex: complex Hermitian systems over real factors
+ *  34443 impl/ packs: the tables through which the core calls packs
+ *  34868 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3036,6 +3036,7 @@ SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
 }
 
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
+#define SLI_NONE(to, count) memset(to, -1, (size_t)(count) * sizeof *(to))
 #define SLI_ZERO(to, count) memset(to, 0, (size_t)(count) * sizeof *(to))
 #define SLI_COPY(to, from, count) memcpy(to, from, (size_t)(count) * sizeof *(to))
 
@@ -3080,10 +3081,6 @@ SLI_INLINE sl_int sli_max(sl_int a, sl_int b) {
 
 SLI_INLINE sl_int sli_clamp(sl_int a, sl_int high) {
   return a < 0 ? 0 : a > high ? high : a;
-}
-
-SLI_INLINE int sli_exceeds_sqrt(int64_t a, sl_int factor, sl_int n) {
-  return (uint64_t)a * (uint64_t)a > (uint64_t)(factor * factor) * (uint64_t)n;
 }
 
 SLI_INLINE int sli_is_finite(double a) {
@@ -5047,9 +5044,7 @@ static sl_triangle sli_triangle_scan(const sl_csc *A) {
 static sl_triangle sli_csc_columns(const sl_csc *A, sl_int *column) {
   const sl_int nnz = sli_nnz(A), *row = A->i;
   sl_int j, p, here = 0, below = 0, above = 0;
-  for (p = 0; p < nnz; p++) {
-    column[p] = 0;
-  }
+  SLI_ZERO(column, nnz);
   for (j = 1; j < A->n_cols && A->p[j] < nnz; j++) {
     column[A->p[j]]++;
   }
@@ -5655,9 +5650,7 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
 
 static sl_int sli_rows_invert(const sl_int *rows, sl_int count, sl_int n, sl_int *where) {
   sl_int k;
-  for (k = 0; k < n; k++) {
-    where[k] = -1;
-  }
+  SLI_NONE(where, n);
   for (k = 0; k < count; k++) {
     if (rows[k] < 0 || rows[k] >= n || where[rows[k]] >= 0) {
       return k;
@@ -5931,7 +5924,7 @@ SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
 }
 
 SLI_INLINE int sli_is_dense_row(sl_off degree, sl_int n) {
-  return sli_exceeds_sqrt(degree, 10, n);
+  return degree * degree > 100 * (sl_off)n;
 }
 
 static void sli_postorder(const sl_int *parent, const sl_int *sequence, sl_int n, sl_int *post,
@@ -6023,16 +6016,15 @@ SLI_COLD static sl_status sli_order_refuse(const sli_order_job *job, sl_status s
 
 /* src/impl/ordering/reduce.h: rows ordered apart: those with few neighbors first, constraints last */
 
-static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
-  sl_int p = A->p[j];
-  while (p < A->p[j + 1] && A->i[p] != j) {
+static int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
+  sl_int p = A->p[row];
+  if (degree < 8 || degree * degree < A->n_cols) {
+    return 0;
+  }
+  while (p < A->p[row + 1] && A->i[p] != row) {
     p++;
   }
-  return p < A->p[j + 1];
-}
-
-SLI_INLINE int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
-  return degree >= 8 && degree * degree >= A->n_cols && !sli_order_has_diagonal(A, row);
+  return p == A->p[row + 1];
 }
 
 static void sli_order_border(const sli_order_job *job) {
@@ -6098,7 +6090,7 @@ static int sli_order_forest(const sli_order_job *job) {
   if (nnz >= (job->triangle == SL_TRIANGLE_BOTH ? 3 : 2) * (int64_t)n) {
     return 0;
   }
-  memset(degree, 0, 2 * (size_t)n * sizeof(sl_int));
+  SLI_ZERO(degree, 2 * (size_t)n);
   for (p = 0; p < nnz; p++) {
     const sl_int i = A->i[p], j = job->column[p];
     const int is_edge = i != j && sli_is_read(job->triangle, i, j);
@@ -6479,7 +6471,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
   const sl_off low = ((sl_off)1 << bits) - 1;
   const int is_plain = (bits > 0) & (g->edge == NULL) & (g->hub_degree == 0);
   sl_int k, m;
-  memset(at, -1, (size_t)c->n * sizeof(sl_off));
+  SLI_NONE(at, c->n);
   for (k = r->first; k < r->last; k++) {
     const sl_off first = count;
     c->begin[k] = first;
@@ -6598,9 +6590,7 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
 static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
   sl_off k;
   sl_int v, pairs = 0;
-  for (v = 0; v < g->n; v++) {
-    mate[v] = -1;
-  }
+  SLI_NONE(mate, g->n);
   for (k = 0; k < (sl_off)g->n + 511; k++) {
     const sl_off at = sli_visited(k);
     sl_int u;
@@ -6708,9 +6698,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
     sli_clusters *clusters, sl_int *weight) {
   sl_int v, best, count = 0, members = 0;
   sl_off e, k;
-  for (v = 0; v < g->n; v++) {
-    g->coarse[v] = -1;
-  }
+  SLI_NONE(g->coarse, g->n);
   clusters->start[0] = 0;
   for (k = 0; k < (sl_off)g->n + 511; k++) {
     const sl_off at = sli_visited(k);
@@ -7005,11 +6993,9 @@ static void sli_borders_fill(sli_borders *l, const sli_labelling *in, const sli_
   const sli_level *g = in->g;
   const sli_label_tree *t = in->tree;
   const sl_int *label = in->label;
-  sl_int v, k;
+  sl_int v;
   sl_off e;
-  for (k = 0; k < t->count; k++) {
-    l->head[k] = -1;
-  }
+  SLI_NONE(l->head, t->count);
   for (v = r->first; v < r->last; v++) {
     const sl_int own = label[v];
     sl_int last = own, listed = -1;
@@ -7528,7 +7514,7 @@ static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *q
     unsigned char *seen) {
   sl_int head, tail = 0;
   sl_off e;
-  memset(seen, 0, (size_t)sub->n);
+  SLI_ZERO(seen, sub->n);
   queue[tail++] = v;
   seen[v] = 1;
   for (head = 0; head < tail; head++) {
@@ -7548,7 +7534,7 @@ static void sli_fm_grow(sli_fm *m, sl_int seed) {
   sub->total[0] = 0;
   m->heap[1].count = 0;
   memset(sub->side, 1, (size_t)sub->n);
-  memset(m->locked, 0, (size_t)sub->n);
+  SLI_ZERO(m->locked, sub->n);
   for (v = 0; v < sub->n; v++) {
     m->heap[0].position[v] = -1;
     m->gain[v] = -m->degree[v];
@@ -8623,11 +8609,9 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d) {
 
 static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *order,
     sl_int *distance) {
-  sl_int v, head = 0, tail = 0, unseen = 0;
+  sl_int head = 0, tail = 0, unseen = 0;
   sl_off e;
-  for (v = 0; v < sub->n; v++) {
-    distance[v] = -1;
-  }
+  SLI_NONE(distance, sub->n);
   distance[from] = 0;
   order[tail++] = from;
   for (;;) {
@@ -8768,7 +8752,7 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
   const int64_t n = t->g->n;
   int64_t squares = 0;
   sl_int first = 0, last = 1, levels = 0;
-  memset(t->mark, -1, (size_t)n * sizeof(sl_int));
+  SLI_NONE(t->mark, n);
   t->queue[0] = root;
   t->mark[root] = 0;
   while (first < last) {
@@ -9083,9 +9067,7 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
   sl_status status = SL_OK;
   septree->count = 0;
   for (k = 0; k < w->d.team->workers; k++) {
-    for (v = 0; v < n; v++) {
-      w->d.workers[k].subgraph.local[v] = -1;
-    }
+    SLI_NONE(w->d.workers[k].subgraph.local, n);
   }
   for (v = 0; v < n && status == SL_OK; v++) {
     if (w->local[v] == -1) {
@@ -9380,9 +9362,7 @@ static sl_status sli_order_metis(const sli_order_job *job) {
   sl_int *perm = job->perm, *local = job->scratch;
   sl_int root, head, tail = 0, start;
   sl_status status = SL_OK;
-  for (root = 0; root < G->n; root++) {
-    local[root] = -1;
-  }
+  SLI_NONE(local, G->n);
   for (root = 0; root < G->n && status == SL_OK; root++) {
     if (local[root] >= 0) {
       continue;
@@ -9971,8 +9951,7 @@ typedef struct sli_graph_facts {
 typedef enum sli_order_way {
   SLI_TRY_LEVELS,
   SLI_TRY_MINDEG,
-  SLI_BY_LEVELS,
-  SLI_BY_MINDEG,
+  SLI_BY_TRIED,
   SLI_BY_CUTS,
   SLI_BY_DISSECTION
 } sli_order_way;
@@ -9982,16 +9961,16 @@ static const struct sli_order_rule {
   sli_order_way way;
 } sli_order_rules[] = {
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_LEVELS, SLI_TRY_LEVELS},
-  {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_LEVELS},
+  {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_TRIED},
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
-  {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
-  {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
+  {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_TRIED},
+  {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_TRIED},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
-  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
-  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
-  {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_TRIED},
+  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_TRIED},
+  {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_TRIED},
   {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_LITTLE_FILL, 0, SLI_BY_CUTS},
   {0, 0, SLI_BY_DISSECTION}};
 
@@ -10023,9 +10002,7 @@ static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
   if (G->begin[G->n] <= 4 * (sl_off)G->n) {
     return 0;
   }
-  for (root = 0; root < G->n; root++) {
-    side[root] = -1;
-  }
+  SLI_NONE(side, G->n);
   for (root = 0, head = 0; root < G->n; root++) {
     if (side[root] == -1) {
       side[root] = 0;
@@ -10189,7 +10166,7 @@ SLI_INLINE sl_off sli_cuts_append(sli_cuts *c, sl_int s, sl_int k, sl_off end) {
 static void sli_cuts_fill(sli_cuts *c, const sli_graph *G) {
   sl_int *child = c->tree, *sibling = c->spare, s, t, k;
   sl_off end = 0, e;
-  memset(child, -1, (size_t)c->nodes * sizeof(sl_int));
+  SLI_NONE(child, c->nodes);
   for (s = 0; s < c->nodes; s++) {
     c->begin[s] = end;
     for (k = c->start[s]; k < c->start[s + 1]; k++) {
@@ -10366,11 +10343,6 @@ static sl_status sli_order_given(const sli_order_job *job) {
   return SL_OK;
 }
 
-static sl_status sli_order_quickly(const sli_order_job *job) {
-  sli_order_cost cost;
-  return sli_order_mindeg(job, job->scratch, &cost);
-}
-
 static sl_status sli_order_compressed(const sli_order_job *job,
     sl_status (*order)(const sli_order_job *)) {
   sli_order_job inner;
@@ -10393,8 +10365,12 @@ static sl_status sli_order_compressed(const sli_order_job *job,
 }
 
 static sl_status sli_order_chosen(const sli_order_job *job) {
-  sli_graph_facts f = sli_graph_describe(job);
+  sli_graph_facts f;
   sl_status status = SL_OK;
+  if (job->ordering == SL_ORDERING_MINDEG) {
+    return sli_order_mindeg(job, job->scratch, &f.cost);
+  }
+  f = sli_graph_describe(job);
   while (status == SL_OK) {
     switch (sli_order_choose(&f)) { /* branches untested: each has a case */
     case SLI_TRY_LEVELS:
@@ -10405,10 +10381,8 @@ static sl_status sli_order_chosen(const sli_order_job *job) {
       status = sli_order_mindeg(job, job->scratch, &f.cost);
       sli_graph_describe_mindeg(job, &f);
       break;
-    case SLI_BY_LEVELS:
+    case SLI_BY_TRIED:
       return SL_OK;
-    case SLI_BY_MINDEG:
-      return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_quickly(job);
     case SLI_BY_CUTS:
       return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
     case SLI_BY_DISSECTION:
@@ -10418,30 +10392,16 @@ static sl_status sli_order_chosen(const sli_order_job *job) {
   return status;
 }
 
-static const struct sli_graph_ordering {
-  sl_ordering ordering;
-  int reduces;
-  sl_status (*order)(const sli_order_job *);
-} sli_graph_orderings[] = {{SL_ORDERING_ND, 1, sli_order_chosen},
-#if defined(SLI_METIS)
-               {SL_ORDERING_METIS, 0, sli_order_metis},
-#endif
-               {SL_ORDERING_MINDEG, 1, sli_order_quickly}};
-
-static const struct sli_graph_ordering *sli_graph_ordering_of(sl_ordering ordering) {
-  size_t k = 0;
-  while (sli_graph_orderings[k].ordering != ordering) {
-    k++;
-  }
-  return &sli_graph_orderings[k];
-}
-
 static sl_status sli_order_rest(const sli_order_job *job) {
-  const struct sli_graph_ordering *chosen = sli_graph_ordering_of(job->ordering);
   const sl_off n = job->G->n, mean = n > 0 ? job->G->begin[n] / n : 0;
-  return chosen->reduces && mean * mean <= n && sli_graph_is_irregular(job->G, job->is_peeled)
-         ? sli_order_compressed(job, chosen->order)
-         : chosen->order(job);
+#if defined(SLI_METIS)
+  if (job->ordering == SL_ORDERING_METIS) {
+    return sli_order_metis(job);
+  }
+#endif
+  return mean * mean <= n && sli_graph_is_irregular(job->G, job->is_peeled)
+         ? sli_order_compressed(job, sli_order_chosen)
+         : sli_order_chosen(job);
 }
 
 static sl_status sli_order_peeled(const sli_order_job *job) {
@@ -10486,7 +10446,6 @@ static void sli_order_expand(const sli_order_job *job) {
 }
 
 static sl_status sli_order_by_graph(sli_order_job *job) {
-  const int may_peel = sli_graph_ordering_of(job->ordering)->reduces;
   sli_graph G;
   sli_block b = {NULL, 0};
   sl_status status = SL_OK;
@@ -10503,8 +10462,9 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
   status = sli_graph_make_canonical(&G, job->a);
   job->G = &G;
   if (status == SL_OK) {
-    status =
-      may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_rest(job);
+    status = job->ordering != SL_ORDERING_METIS && sli_peel_is_worthwhile(&G)
+           ? sli_order_peeled(job)
+           : sli_order_rest(job);
   }
   if (status == SL_OK && job->block > 1) {
     sli_order_expand(job);
@@ -10545,10 +10505,7 @@ static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
 
 static sl_status sli_order(sli_order_job *job) {
   const sl_options *opt = job->opt;
-  const char *wrong;
-  job->septree->count = 0;
-  job->choice->has_tree = 0;
-  wrong = sli_order_options_wrong(opt, job->A->n_cols);
+  const char *wrong = sli_order_options_wrong(opt, job->A->n_cols);
   if (wrong != NULL) {
     return sli_order_refuse(job, SL_ERR_ARGUMENT, wrong);
   }
@@ -10556,9 +10513,7 @@ static sl_status sli_order(sli_order_job *job) {
   job->is_hurried = sli_order_is_hurried(opt);
   job->block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
   job->is_small = job->A->n_cols / job->block < SLI_DISSECT_SMALL;
-  job->is_peeled = 0;
   job->may_compress = 1;
-  job->weight = NULL;
   switch (job->ordering) {
   case SL_ORDERING_GIVEN:
     return sli_order_given(job);
@@ -10691,7 +10646,7 @@ static sli_merge sli_merge_start(const sli_tree_job *job) {
   m.from = (uint32_t *)(void *)(job->scratch + 3 * (size_t)job->n);
   m.waiting = job->scratch + 4 * (size_t)job->n;
   m.is_in_order = job->sequence == NULL;
-  memset(m.mark, 0xff, 2 * (size_t)job->n * sizeof(sl_int));
+  SLI_NONE(m.mark, 2 * (size_t)job->n);
   return m;
 }
 
@@ -10918,7 +10873,7 @@ typedef struct sli_amalgamation {
 
 static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *other) {
   sl_int k;
-  memset(other, 0xff, (size_t)n * sizeof(sl_int));
+  SLI_NONE(other, n);
   for (k = 0; k < n; k++) {
     if (parent[k] != -1 && parent[k] != k + 1) {
       other[parent[k]] = k;
@@ -11057,9 +11012,7 @@ SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl
 static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, uint64_t *list,
     uint64_t *scratch) {
   sl_int s, c, k, count;
-  for (s = 0; s < g->count; s++) {
-    child[s] = -1;
-  }
+  SLI_NONE(child, g->count);
   for (s = 0; s < g->count; s++) {
     const sl_int up = g->parent[s];
     sl_off cost;
@@ -11249,9 +11202,7 @@ static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent, const unsi
   sl_int *first = g->merged_into;
   const sl_int count = sli_find_parts(g, is_first, first, below, order);
   sl_int s, k, c, column = 0;
-  for (k = 0; k < n; k++) {
-    earlier[k] = -1;
-  }
+  SLI_NONE(earlier, n);
   if (count == g->count) {
     return 0;
   }
@@ -27403,7 +27354,7 @@ SLI_INLINE sl_int sli_subset_find(const sli_subset *R, sl_int column) {
 static void sli_subset_hash(sli_subset *R) {
   const uint64_t *list = R->list;
   sl_int k, w = -1;
-  memset(R->slots, 0xff, ((size_t)R->mask + 1) * sizeof(sl_int));
+  SLI_NONE(R->slots, (size_t)R->mask + 1);
   for (k = 0; k < R->count; k++) {
     const sl_int column = sli_key(list[k]), number = column / SLI_SUBSET_BITS;
     if (w == -1 || R->numbers[w] != number) {
@@ -27423,7 +27374,7 @@ SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, co
   static const char sli_row_twice[] = "a row is given twice";
   sl_int k, rank = 0;
   if (!R->is_hashed) {
-    memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
+    SLI_ZERO(R->words, R->n_words);
   }
   for (k = 0; k < R->count; k++) {
     const sl_int row = rows[k];
@@ -27803,7 +27754,7 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
              : 0;
   }
   if (r->number_at != NULL) {
-    memset(r->number_at, 0xff, (size_t)r->S->n * sizeof(sl_int));
+    SLI_NONE(r->number_at, r->S->n);
   } else {
     memset(r->bits, 0, ((size_t)r->bits_mask + 1) * sizeof(uint32_t));
   }
@@ -28146,9 +28097,7 @@ static sl_status sli_submatrix_check(const sl_factor *F, const sli_restriction *
 static void sli_submatrix_keep(const sl_factor *G, sli_restriction *r, sl_int *from,
     sl_int *columns) {
   sl_int q, k;
-  for (q = 0; q < G->S->n_supers; q++) {
-    from[q] = -1;
-  }
+  SLI_NONE(from, G->S->n_supers);
   for (q = 0; q < r->n_kept; q++) {
     const sl_int t = r->kept_new[q];
     from[t] = r->kept[q];
@@ -28411,9 +28360,7 @@ static void sli_edit_layout(sli_edit *e, sli_block *b) {
 static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl_int n,
     sl_int *column_of, sl_stats *stats) {
   sl_int j;
-  for (j = 0; j < n; j++) {
-    column_of[j] = -1;
-  }
+  SLI_NONE(column_of, n);
   for (j = 0; j < S->n; j++) {
     const sl_int row = new_of[j];
     if (row < -1 || row >= n || (row >= 0 && column_of[row] != -1)) {
@@ -29193,9 +29140,7 @@ static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges
   sl_off total;
   sl_status status = SL_OK;
   sl_int k;
-  for (k = 0; k < e->n; k++) {
-    e->number[k] = -1;
-  }
+  SLI_NONE(e->number, e->n);
   for (k = 0; k < count; k++) {
     e->number[e->fresh[k]] = k;
   }
@@ -29328,9 +29273,7 @@ static sl_status sli_edit_analyze_fresh(sli_edit *e, sli_restriction *r, sl_rela
     const sl_allocator *a, sl_stats *stats) {
   sl_status status;
   sl_int k;
-  for (k = 0; k < e->n; k++) {
-    e->number[k] = -1;
-  }
+  SLI_NONE(e->number, e->n);
   for (k = 0; k < e->n_fresh; k++) {
     e->number[e->fresh[k]] = k;
   }
@@ -33498,9 +33441,7 @@ static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl
 static void sli_scatter_list(const sl_symbolic *S, sli_scatter_work *w, sl_int s) {
   const sl_off start = S->scatter_begin[s];
   sl_int k, j, m, tile = sli_last_tile(S, s);
-  for (j = 0; j < S->steps[s].width; j++) {
-    w->head[j] = -1;
-  }
+  SLI_NONE(w->head, S->steps[s].width);
   for (m = (sl_int)(S->scatter_begin[s + 1] - start) - 1; m >= 0; m--) {
     sli_scatter_map_pivots(S, s, start + m, &tile, &k, &j);
     j -= S->super_first[s];
@@ -33528,9 +33469,7 @@ static sl_int sli_scatter_find(sli_scatter_work *w, sl_int j, sl_int head, sl_in
 
 static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
   sl_int s, j, missing = INT32_MAX;
-  for (j = 0; j < S->n; j++) {
-    w->index[j] = -1;
-  }
+  SLI_NONE(w->index, S->n);
   for (s = 0; s < S->n_supers; s++) {
     const sl_int first = S->super_first[s], last = S->super_first[s + 1];
     if (w->begin[first] < w->begin[last]) {
@@ -34603,6 +34542,7 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_SPIN
 #undef SLI_ATOMIC
 #undef SLI_CLEAR
+#undef SLI_NONE
 #undef SLI_ZERO
 #undef SLI_COPY
 #undef SLI_ASSERT

@@ -69,9 +69,7 @@ static void sli_edit_layout(sli_edit *e, sli_block *b) {
 static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl_int n,
                                   sl_int *column_of, sl_stats *stats) {
     sl_int j;
-    for (j = 0; j < n; j++) {
-        column_of[j] = -1;
-    }
+    SLI_NONE(column_of, n);
     for (j = 0; j < S->n; j++) {
         const sl_int row = new_of[j];
         if (row < -1 || row >= n || (row >= 0 && column_of[row] != -1)) {
