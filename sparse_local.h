@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 73be9cbf189cd30c
+ * FNV-1a of the lines after this comment, without the license: 6f0fcef02b7d4241
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,25 +36,25 @@
  *   4082 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4963 impl/ matrix: sparse matrices of the caller and of the library
  *   5820 impl/ ordering: fill-reducing orderings of a graph
- *  10539 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12777 impl/ factor: the numbers of L and D
- *  15363 impl/ solve: full and local solves
- *  16875 impl/ singular: null spaces of semidefinite matrices
- *  18126 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20165 impl/ pivots: the order of the pivots by the values of a matrix
- *  20569 impl/ float: L in single precision
- *  20752 impl/ inverse: entries of the inverse, regions
- *  23654 impl/ change: a factor that follows changes of its matrix
- *  25924 impl/ constraints: rows held at values, on a factor that stays
- *  27275 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  29993 impl/ fixed: rows fixed at given values
- *  30549 impl/ io: files that are replaced only when they are complete
- *  30768 impl/ files: Matrix Market files, 64-bit indices
- *  31324 impl/ save: factors in files
- *  33295 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33975 impl/ complex: complex Hermitian systems over real factors
- *  34443 impl/ packs: the tables through which the core calls packs
- *  34868 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10589 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12827 impl/ factor: the numbers of L and D
+ *  15413 impl/ solve: full and local solves
+ *  16925 impl/ singular: null spaces of semidefinite matrices
+ *  18176 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20215 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20619 impl/ float: L in single precision
+ *  20802 impl/ inverse: entries of the inverse, regions
+ *  23704 impl/ change: a factor that follows changes of its matrix
+ *  25974 impl/ constraints: rows held at values, on a factor that stays
+ *  27325 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30043 impl/ fixed: rows fixed at given values
+ *  30599 impl/ io: files that are replaced only when they are complete
+ *  30818 impl/ files: Matrix Market files, 64-bit indices
+ *  31374 impl/ save: factors in files
+ *  33345 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34025 impl/ complex: complex Hermitian systems over real factors
+ *  34493 impl/ packs: the tables through which the core calls packs
+ *  34918 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -9471,7 +9471,7 @@ static int sli_order_levels(const sli_order_job *job) {
 
 #define SLI_QUOTIENT_LONG 32
 
-enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 };
+enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2, SLI_QUOTIENT_WAITS = -3 };
 
 typedef struct sli_quotient_node {
   sl_off begin;
@@ -9572,9 +9572,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_order_job *job) {
     }
     q->node[v].length = (sl_int)(q->end - q->node[v].begin);
   }
-  for (v = 0; v < q->total; v++) {
-    q->head[v] = -1;
-  }
+  SLI_NONE(q->head, q->total);
   for (v = 0; v < q->n; v++) {
     if (q->weight[v] != 0) {
       sli_quotient_enqueue(q, v);
@@ -9633,25 +9631,20 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
   sl_off at, begin, to;
   q->node[pivot].elements = SLI_QUOTIENT_PIVOT;
   q->weight[pivot] = -q->weight[pivot];
-  if (elements == 0) {
-    begin = q->node[pivot].begin;
-    to = sli_quotient_gather(q, begin, q->node[pivot].length, begin, &total);
-  } else {
-    if (q->room - q->end < q->n - q->pivots) {
-      sli_quotient_collect(q);
-    }
-    at = q->node[pivot].begin;
-    begin = to = q->end;
-    for (k = 0; k < elements; k++) {
-      const sl_int e = q->list[at + k];
-      SLI_ASSERT(q->mark[e] != 0);
-      to = sli_quotient_gather(q, q->node[e].begin, q->node[e].length, to, &total);
-      sli_quotient_absorb(q, e, pivot);
-    }
-    to = sli_quotient_gather(q, at + elements, q->node[pivot].length - elements, to, &total);
-    q->node[pivot].begin = begin;
-    q->end = to;
+  if (elements > 0 && q->room - q->end < q->n - q->pivots) {
+    sli_quotient_collect(q);
   }
+  at = q->node[pivot].begin;
+  begin = to = elements > 0 ? q->end : at;
+  for (k = 0; k < elements; k++) {
+    const sl_int e = q->list[at + k];
+    SLI_ASSERT(q->mark[e] != 0);
+    to = sli_quotient_gather(q, q->node[e].begin, q->node[e].length, to, &total);
+    sli_quotient_absorb(q, e, pivot);
+  }
+  to = sli_quotient_gather(q, at + elements, q->node[pivot].length - elements, to, &total);
+  q->end = elements > 0 ? to : q->end;
+  q->node[pivot].begin = begin;
   q->node[pivot].length = (sl_int)(to - begin);
   return total;
 }
@@ -9659,14 +9652,8 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
 static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
   const sl_int *front = q->list + q->node[pivot].begin;
   const sl_int size = q->node[pivot].length;
-  sl_int k, p, v, base;
-  if (q->base > INT32_MAX - 3 * (sl_off)q->total - 3) {
-    for (v = 0; v < q->n; v++) {
-      q->mark[v] = q->mark[v] != 0;
-    }
-    q->base = 2;
-  }
-  base = q->base;
+  const sl_int base = q->base;
+  sl_int k, p;
   for (k = 0; k < size; k++) {
     const sl_int weight = -q->weight[front[k]], count = q->node[front[k]].elements;
     const sl_int *elements = q->list + q->node[front[k]].begin;
@@ -9774,6 +9761,56 @@ static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
   }
 }
 
+SLI_INLINE int sli_quotient_is_far(sl_int degree, sl_int least) {
+  return degree / 8 > least;
+}
+
+static void sli_quotient_catch_up(sli_quotient *q, sl_int v) {
+  sli_quotient_node *p = &q->node[v];
+  sl_int *list = q->list + p->begin;
+  const sl_int most = q->live - q->rows - q->weight[v], length = p->length;
+  sl_int k, elements = 0, to = 0, degree = 0;
+  sl_off at, end;
+  q->mark[v] = q->base;
+  for (k = 0; k < length; k++) {
+    sl_int u = list[k];
+    const int is_pivot = q->node[u].elements == SLI_QUOTIENT_PIVOT;
+    while (is_pivot && q->node[u].into != -1) {
+      u = q->node[u].into;
+    }
+    if (q->weight[u] == 0 || q->mark[u] == q->base) {
+      continue;
+    }
+    q->mark[u] = q->base;
+    degree += is_pivot ? 0 : q->weight[u];
+    list[to++] = list[elements];
+    list[is_pivot ? elements++ : to - 1] = u;
+  }
+  p->length = to;
+  for (k = 0; k < elements && degree < most && !sli_quotient_is_far(degree, q->least); k++) {
+    at = q->node[list[k]].begin;
+    for (end = at + q->node[list[k]].length; at < end; at++) {
+      const sl_int u = q->list[at];
+      degree += q->mark[u] == q->base ? 0 : q->weight[u];
+      q->mark[u] = q->base;
+    }
+  }
+  q->base++;
+  p->elements = sli_quotient_is_far(degree, q->least) ? SLI_QUOTIENT_WAITS : elements;
+  p->degree = degree;
+  sli_quotient_enqueue(q, v);
+}
+
+static int sli_quotient_waits(sli_quotient *q, sl_int v, sl_int total, sl_int pivot) {
+  sli_quotient_node *p = &q->node[v];
+  if (p->elements == 0 && !sli_quotient_is_far(p->degree, total)) {
+    return 0;
+  }
+  p->elements = SLI_QUOTIENT_WAITS;
+  p->degree = sli_max(p->degree - total + pivot - q->weight[v], 0);
+  return 1;
+}
+
 static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   const sl_int total = sli_quotient_form(q, pivot), count = q->node[pivot].length;
   sl_int *front = q->list + q->node[pivot].begin;
@@ -9783,6 +9820,9 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   sli_quotient_overlaps(q, pivot);
   for (k = 0; k < count; k++) {
     const sl_int v = front[k];
+    if (q->node[v].elements <= 0 && sli_quotient_waits(q, v, total, q->weight[pivot])) {
+      continue;
+    }
     if (!sli_quotient_rewrite(q, v, pivot)) {
       left += q->weight[v];
       q->rows -= q->weight[v];
@@ -9792,7 +9832,7 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   q->widest = total > q->widest ? total : q->widest;
   q->base += q->widest + 1;
   for (k = 0; k < count; k++) {
-    if (q->weight[front[k]] != 0) {
+    if (q->node[front[k]].elements > 0) {
       const sl_int hash = q->node[front[k]].previous, first = q->bucket[hash];
       q->bucket[hash] = -1;
       sli_quotient_merge_chain(q, first);
@@ -9870,9 +9910,9 @@ typedef struct sli_order_cost {
 
 static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_cost *cost) {
   sl_int k;
+  SLI_CLEAR(*cost);
   cost->flops = 0.25 * q->flops;
   cost->widest = q->widest;
-  cost->entries = cost->paths = cost->fronts = cost->lists = 0.0;
   cost->pivots = q->pivots;
   SLI_ZERO(below, q->n);
   for (k = 0; k < q->pivots; k++) {
@@ -9913,9 +9953,19 @@ static sl_status sli_order_mindeg(const sli_order_job *job, sl_int *sizes, sli_o
     while (q.head[q.least] == -1) {
       q.least++;
     }
+    if (q.base > INT32_MAX - 3 * (sl_off)q.total - 3) {
+      for (pivot = 0; pivot < q.n; pivot++) {
+        q.mark[pivot] = q.mark[pivot] != 0;
+      }
+      q.base = 2;
+    }
     pivot = q.head[q.least];
     sli_quotient_dequeue(&q, pivot);
-    sli_quotient_eliminate(&q, pivot);
+    if (q.node[pivot].elements == SLI_QUOTIENT_WAITS) {
+      sli_quotient_catch_up(&q, pivot);
+    } else {
+      sli_quotient_eliminate(&q, pivot);
+    }
   }
   sli_quotient_cost(&q, q.head, cost);
   sli_quotient_write(&q, job->perm, sizes);
