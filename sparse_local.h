@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6f0fcef02b7d4241
+ * FNV-1a of the lines after this comment, without the license: da4e8ba975b2b702
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,25 +36,25 @@
  *   4082 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4963 impl/ matrix: sparse matrices of the caller and of the library
  *   5820 impl/ ordering: fill-reducing orderings of a graph
- *  10589 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12827 impl/ factor: the numbers of L and D
- *  15413 impl/ solve: full and local solves
- *  16925 impl/ singular: null spaces of semidefinite matrices
- *  18176 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20215 impl/ pivots: the order of the pivots by the values of a matrix
- *  20619 impl/ float: L in single precision
- *  20802 impl/ inverse: entries of the inverse, regions
- *  23704 impl/ change: a factor that follows changes of its matrix
- *  25974 impl/ constraints: rows held at values, on a factor that stays
- *  27325 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30043 impl/ fixed: rows fixed at given values
- *  30599 impl/ io: files that are replaced only when they are complete
- *  30818 impl/ files: Matrix Market files, 64-bit indices
- *  31374 impl/ save: factors in files
- *  33345 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34025 impl/ complex: complex Hermitian systems over real factors
- *  34493 impl/ packs: the tables through which the core calls packs
- *  34918 impl/ templates: the header includes them from itself, once for each instruction set
+ *  10591 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12829 impl/ factor: the numbers of L and D
+ *  15415 impl/ solve: full and local solves
+ *  16927 impl/ singular: null spaces of semidefinite matrices
+ *  18178 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20217 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20621 impl/ float: L in single precision
+ *  20804 impl/ inverse: entries of the inverse, regions
+ *  23706 impl/ change: a factor that follows changes of its matrix
+ *  25976 impl/ constraints: rows held at values, on a factor that stays
+ *  27327 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30045 impl/ fixed: rows fixed at given values
+ *  30601 impl/ io: files that are replaced only when they are complete
+ *  30820 impl/ files: Matrix Market files, 64-bit indices
+ *  31376 impl/ save: factors in files
+ *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34027 impl/ complex: complex Hermitian systems over real factors
+ *  34495 impl/ packs: the tables through which the core calls packs
+ *  34920 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6033,7 +6033,9 @@ static void sli_order_border(const sli_order_job *job) {
   sl_int *perm = job->perm, *position = job->scratch;
   sl_int k, v, last;
   sl_off e;
-  for (v = 0; v < G->n && !sli_order_is_constraint(A, v, sli_graph_degree(G, v)); v++) {
+  for (v = 0; v < G->n && (sli_graph_degree(G, v) < 8 ||
+      !sli_order_is_constraint(A, v, sli_graph_degree(G, v)));
+      v++) {
   }
   if (v == G->n) {
     return;
@@ -6101,7 +6103,7 @@ static int sli_order_forest(const sli_order_job *job) {
     edges += is_edge;
   }
   for (k = 0; k < n && edges < n; k++) {
-    if (sli_order_is_constraint(A, k, degree[k])) {
+    if (degree[k] >= 8 && sli_order_is_constraint(A, k, degree[k])) {
       return 0;
     }
   }
@@ -14628,7 +14630,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     F->scratch = b.base;
     F->stats.factor.bytes += b.used;
     if (F->history.marks != NULL) {
-      memset(F->history.marks, 0, (size_t)S->n_supers * sizeof(uint64_t));
+      SLI_ZERO(F->history.marks, S->n_supers);
     }
     F->null.has_duplicates = sli_skips_nulls(F) && sli_map_has_duplicates(S);
     if (has_fronts) {
@@ -23254,7 +23256,7 @@ static void sli_choice_init(sli_choice *c) {
   sli_reach_fill(S, c->seeds, c->count, c->steps, c->rows, &c->reach);
   SLI_ZERO(c->n_children, c->reach.count);
   SLI_ZERO(c->n_inside, c->reach.count);
-  memset(c->is_inside, 0, (size_t)c->reach.count);
+  SLI_ZERO(c->is_inside, c->reach.count);
   SLI_ZERO(c->needed, c->reach.columns);
   c->rows_begin[0] = 0;
   for (k = 0; k < c->reach.count; k++) {
@@ -24206,7 +24208,7 @@ static sl_status sli_loss_begin(sl_factor *F) {
     }
     h->bytes = b.used;
   }
-  memset(h->known, 0, (size_t)S->n_supers);
+  SLI_ZERO(h->known, S->n_supers);
   h->base = fmax(1.0, h->drift / DBL_EPSILON);
   return SL_OK;
 }
@@ -27806,7 +27808,7 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
   if (r->number_at != NULL) {
     SLI_NONE(r->number_at, r->S->n);
   } else {
-    memset(r->bits, 0, ((size_t)r->bits_mask + 1) * sizeof(uint32_t));
+    SLI_ZERO(r->bits, (size_t)r->bits_mask + 1);
   }
   for (k = 0; k < r->R.count; k++) {
     const sl_int j = r->rows[k];
@@ -28530,7 +28532,7 @@ static void sli_edit_match(sli_edit *e) {
     e->waiting[j] = SLI_EDIT_LAST;
     where[j] = 0;
   }
-  memset(e->is_matched, 0, (size_t)sli_nnz(B));
+  SLI_ZERO(e->is_matched, sli_nnz(B));
   for (j = 0; j < A->n_cols; j++) {
     sli_edit_match_ahead(e, j);
   }

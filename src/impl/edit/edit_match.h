@@ -199,7 +199,7 @@ static void sli_edit_match(sli_edit *e) {
         e->waiting[j] = SLI_EDIT_LAST;
         where[j] = 0;
     }
-    memset(e->is_matched, 0, (size_t)sli_nnz(B));
+    SLI_ZERO(e->is_matched, sli_nnz(B));
     for (j = 0; j < A->n_cols; j++) {
         sli_edit_match_ahead(e, j);
     }

@@ -158,7 +158,7 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
     if (r->number_at != NULL) {
         SLI_NONE(r->number_at, r->S->n);
     } else {
-        memset(r->bits, 0, ((size_t)r->bits_mask + 1) * sizeof(uint32_t));
+        SLI_ZERO(r->bits, (size_t)r->bits_mask + 1);
     }
     for (k = 0; k < r->R.count; k++) {
         const sl_int j = r->rows[k];

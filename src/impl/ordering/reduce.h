@@ -4,7 +4,7 @@
 
 #include "job.h"
 
-/* Is this row a constraint: has it no diagonal entry, but many neighbors? */
+/* Has a row no diagonal entry, but many neighbors? */
 static int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
     sl_int p = A->p[row];
     if (degree < 8 || degree * degree < A->n_cols) {
@@ -26,7 +26,9 @@ static void sli_order_border(const sli_order_job *job) {
     sl_int *perm = job->perm, *position = job->scratch;
     sl_int k, v, last;
     sl_off e;
-    for (v = 0; v < G->n && !sli_order_is_constraint(A, v, sli_graph_degree(G, v)); v++) {
+    for (v = 0; v < G->n && (sli_graph_degree(G, v) < 8 ||
+                           !sli_order_is_constraint(A, v, sli_graph_degree(G, v)));
+         v++) {
     }
     if (v == G->n) {
         return; /* usual */
@@ -102,7 +104,7 @@ static int sli_order_forest(const sli_order_job *job) {
         edges += is_edge;
     }
     for (k = 0; k < n && edges < n; k++) {
-        if (sli_order_is_constraint(A, k, degree[k])) {
+        if (degree[k] >= 8 && sli_order_is_constraint(A, k, degree[k])) {
             return 0;
         }
     }
