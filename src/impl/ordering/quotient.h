@@ -326,9 +326,9 @@ static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
     }
 }
 
-/* Is a degree far above the least? With 4, scale-free graphs take 1.3 times as long. */
+/* Is a degree far above the least one? */
 SLI_INLINE int sli_quotient_is_far(sl_int degree, sl_int least) {
-    return degree / 8 > least;
+    return degree / 8 > least + 4;
 }
 
 /* Updates a variable that waits. If its degree is far, it waits on. */
