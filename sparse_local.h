@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9389c7669aab916f
+ * FNV-1a of the lines after this comment, without the license: 329418d221c62569
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9764,7 +9764,7 @@ static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
 }
 
 SLI_INLINE int sli_quotient_is_far(sl_int degree, sl_int least) {
-  return degree / 8 > least + 4;
+  return degree >> 3 > least + 4;
 }
 
 static void sli_quotient_catch_up(sli_quotient *q, sl_int v) {

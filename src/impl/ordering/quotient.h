@@ -328,7 +328,7 @@ static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
 
 /* Is a degree far above the least one? */
 SLI_INLINE int sli_quotient_is_far(sl_int degree, sl_int least) {
-    return degree / 8 > least + 4;
+    return degree >> 3 > least + 4;
 }
 
 /* Updates a variable that waits. If its degree is far, it waits on. */
