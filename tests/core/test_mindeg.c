@@ -84,6 +84,34 @@ static void fill_is_that_of_exact_degrees(void **state) {
     assert_true(ours <= 1.05 * exact);
 }
 
+/* Constraints of 5 variables each, 10 times as many as variables, which wait while constraints are
+ * eliminated. In half of the systems the variables are also joined in a chain. */
+static void variables_of_many_constraints(void **state) {
+    (void)state;
+    double ours = 0.0, exact = 0.0;
+    uint64_t seed = 5;
+    for (int round = 0; round < 8; round++) {
+        const sl_int variables = 12 + 3 * round, rows = 10 * variables;
+        gen_list_t t = gen_list(variables + rows);
+        for (sl_int r = 0; r < rows; r++) {
+            for (int k = 0; k < 5; k++) {
+                gen_add(&t, variables + r, gen_below(&seed, variables), 1.0);
+            }
+        }
+        for (sl_int v = 1; v < variables && round % 2 != 0; v++) {
+            gen_add(&t, v, v - 1, 1.0);
+        }
+        gen_dominate(&t, 1, &seed);
+        gen_matrix_t M = gen_store(&t, gen_style(round % GEN_STYLES), seed);
+        ours += fill_of(&M.view, by_mindeg());
+        exact += fill_of_exact(&t);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+    print_message("%.4f times the entries of L by exact minimum degree\n", ours / exact);
+    assert_true(ours <= 1.01 * exact);
+}
+
 /* Trees, stars and cliques have orders without fill, which minimum degree finds. A dense row is
  * eliminated last. */
 static void graphs_without_fill(void **state) {
@@ -296,6 +324,7 @@ static void memory_fails_at_every_point(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fill_is_that_of_exact_degrees),
+        cmocka_unit_test(variables_of_many_constraints),
         cmocka_unit_test(graphs_without_fill),
         cmocka_unit_test(every_kind_is_ordered),
         cmocka_unit_test(numbered_grids_have_little_fill),

@@ -76,7 +76,7 @@ static sli_merge sli_merge_start(const sli_tree_job *job) {
     m.from = (uint32_t *)(void *)(job->scratch + 3 * (size_t)job->n);
     m.waiting = job->scratch + 4 * (size_t)job->n;
     m.is_in_order = job->sequence == NULL;
-    memset(m.mark, 0xff, 2 * (size_t)job->n * sizeof(sl_int)); /* -1, also in child */
+    SLI_NONE(m.mark, 2 * (size_t)job->n); /* also in child */
     return m;
 }
 

@@ -163,9 +163,7 @@ static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent, const unsi
     sl_int *first = g->merged_into; /* free now */
     const sl_int count = sli_find_parts(g, is_first, first, below, order);
     sl_int s, k, c, column = 0;
-    for (k = 0; k < n; k++) {
-        earlier[k] = -1;
-    }
+    SLI_NONE(earlier, n);
     if (count == g->count) {
         return 0;
     }

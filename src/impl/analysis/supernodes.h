@@ -32,7 +32,7 @@ typedef struct sli_amalgamation {
 /* other[k] := a child of k but k - 1, or -1. */
 static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *other) {
     sl_int k;
-    memset(other, 0xff, (size_t)n * sizeof(sl_int));
+    SLI_NONE(other, n);
     for (k = 0; k < n; k++) {
         if (parent[k] != -1 && parent[k] != k + 1) {
             other[parent[k]] = k;
@@ -189,9 +189,7 @@ SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl
 static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, uint64_t *list,
                            uint64_t *scratch) {
     sl_int s, c, k, count;
-    for (s = 0; s < g->count; s++) {
-        child[s] = -1;
-    }
+    SLI_NONE(child, g->count);
     for (s = 0; s < g->count; s++) {
         const sl_int up = g->parent[s];
         sl_off cost;

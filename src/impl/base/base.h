@@ -299,6 +299,7 @@ SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
 
 /* Sets a struct to 0; sets elements of an array to 0, or to those of another one. */
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
+#define SLI_NONE(to, count) memset(to, -1, (size_t)(count) * sizeof *(to)) /* -1 each */
 #define SLI_ZERO(to, count) memset(to, 0, (size_t)(count) * sizeof *(to))
 #define SLI_COPY(to, from, count) memcpy(to, from, (size_t)(count) * sizeof *(to))
 
@@ -350,11 +351,6 @@ SLI_INLINE sl_int sli_max(sl_int a, sl_int b) {
 /* a clamped */
 SLI_INLINE sl_int sli_clamp(sl_int a, sl_int high) {
     return a < 0 ? 0 : a > high ? high : a;
-}
-
-/* Whether a > factor sqrt(n), without rounding; a < 2^32. */
-SLI_INLINE int sli_exceeds_sqrt(int64_t a, sl_int factor, sl_int n) {
-    return (uint64_t)a * (uint64_t)a > (uint64_t)(factor * factor) * (uint64_t)n;
 }
 
 SLI_INLINE int sli_is_finite(double a) {

@@ -74,9 +74,7 @@ static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl
 static void sli_scatter_list(const sl_symbolic *S, sli_scatter_work *w, sl_int s) {
     const sl_off start = S->scatter_begin[s];
     sl_int k, j, m, tile = sli_last_tile(S, s);
-    for (j = 0; j < S->steps[s].width; j++) {
-        w->head[j] = -1;
-    }
+    SLI_NONE(w->head, S->steps[s].width);
     for (m = (sl_int)(S->scatter_begin[s + 1] - start) - 1; m >= 0; m--) {
         sli_scatter_map_pivots(S, s, start + m, &tile, &k, &j);
         j -= S->super_first[s];
@@ -109,9 +107,7 @@ static sl_int sli_scatter_find(sli_scatter_work *w, sl_int j, sl_int head, sl_in
  * INT32_MAX. */
 static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
     sl_int s, j, missing = INT32_MAX;
-    for (j = 0; j < S->n; j++) {
-        w->index[j] = -1;
-    }
+    SLI_NONE(w->index, S->n);
     for (s = 0; s < S->n_supers; s++) {
         const sl_int first = S->super_first[s], last = S->super_first[s + 1];
         if (w->begin[first] < w->begin[last]) {

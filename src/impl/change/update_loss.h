@@ -32,7 +32,7 @@ static sl_status sli_loss_begin(sl_factor *F) {
         }
         h->bytes = b.used;
     }
-    memset(h->known, 0, (size_t)S->n_supers);
+    SLI_ZERO(h->known, S->n_supers);
     h->base = fmax(1.0, h->drift / DBL_EPSILON);
     return SL_OK;
 }

@@ -77,9 +77,7 @@ static sl_status sli_edit_analyze_fresh(sli_edit *e, sli_restriction *r, sl_rela
                                         const sl_allocator *a, sl_stats *stats) {
     sl_status status;
     sl_int k;
-    for (k = 0; k < e->n; k++) {
-        e->number[k] = -1;
-    }
+    SLI_NONE(e->number, e->n);
     for (k = 0; k < e->n_fresh; k++) {
         e->number[e->fresh[k]] = k;
     }

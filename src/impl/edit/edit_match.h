@@ -69,9 +69,7 @@ static void sli_edit_layout(sli_edit *e, sli_block *b) {
 static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl_int n,
                                   sl_int *column_of, sl_stats *stats) {
     sl_int j;
-    for (j = 0; j < n; j++) {
-        column_of[j] = -1;
-    }
+    SLI_NONE(column_of, n);
     for (j = 0; j < S->n; j++) {
         const sl_int row = new_of[j];
         if (row < -1 || row >= n || (row >= 0 && column_of[row] != -1)) {
@@ -201,7 +199,7 @@ static void sli_edit_match(sli_edit *e) {
         e->waiting[j] = SLI_EDIT_LAST;
         where[j] = 0;
     }
-    memset(e->is_matched, 0, (size_t)sli_nnz(B));
+    SLI_ZERO(e->is_matched, sli_nnz(B));
     for (j = 0; j < A->n_cols; j++) {
         sli_edit_match_ahead(e, j);
     }

@@ -98,9 +98,7 @@ static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges
     sl_off total;
     sl_status status = SL_OK;
     sl_int k;
-    for (k = 0; k < e->n; k++) {
-        e->number[k] = -1;
-    }
+    SLI_NONE(e->number, e->n);
     for (k = 0; k < count; k++) {
         e->number[e->fresh[k]] = k;
     }

@@ -27,9 +27,7 @@ static sl_status sli_submatrix_check(const sl_factor *F, const sli_restriction *
 static void sli_submatrix_keep(const sl_factor *G, sli_restriction *r, sl_int *from,
                                sl_int *columns) {
     sl_int q, k;
-    for (q = 0; q < G->S->n_supers; q++) {
-        from[q] = -1;
-    }
+    SLI_NONE(from, G->S->n_supers);
     for (q = 0; q < r->n_kept; q++) {
         const sl_int t = r->kept_new[q];
         from[t] = r->kept[q];

@@ -156,9 +156,9 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
                        : 0;
     }
     if (r->number_at != NULL) {
-        memset(r->number_at, 0xff, (size_t)r->S->n * sizeof(sl_int)); /* -1 */
+        SLI_NONE(r->number_at, r->S->n);
     } else {
-        memset(r->bits, 0, ((size_t)r->bits_mask + 1) * sizeof(uint32_t));
+        SLI_ZERO(r->bits, (size_t)r->bits_mask + 1);
     }
     for (k = 0; k < r->R.count; k++) {
         const sl_int j = r->rows[k];

@@ -96,7 +96,7 @@ SLI_INLINE sl_int sli_subset_find(const sli_subset *R, sl_int column) {
 static void sli_subset_hash(sli_subset *R) {
     const uint64_t *list = R->list;
     sl_int k, w = -1;
-    memset(R->slots, 0xff, ((size_t)R->mask + 1) * sizeof(sl_int)); /* -1 */
+    SLI_NONE(R->slots, (size_t)R->mask + 1);
     for (k = 0; k < R->count; k++) {
         const sl_int column = sli_key(list[k]), number = column / SLI_SUBSET_BITS;
         if (w == -1 || R->numbers[w] != number) {
@@ -118,7 +118,7 @@ SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, co
     static const char sli_row_twice[] = "a row is given twice";
     sl_int k, rank = 0;
     if (!R->is_hashed) {
-        memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
+        SLI_ZERO(R->words, R->n_words);
     }
     for (k = 0; k < R->count; k++) {
         const sl_int row = rows[k];

@@ -127,7 +127,7 @@ static sl_status sli_factor_prepare(sl_factor *F, int is_new) {
         F->scratch = b.base;
         F->stats.factor.bytes += b.used;
         if (F->history.marks != NULL) {
-            memset(F->history.marks, 0, (size_t)S->n_supers * sizeof(uint64_t));
+            SLI_ZERO(F->history.marks, S->n_supers);
         }
         F->null.has_duplicates = sli_skips_nulls(F) && sli_map_has_duplicates(S);
         if (has_fronts) {

@@ -214,7 +214,7 @@ static void sli_choice_init(sli_choice *c) {
     sli_reach_fill(S, c->seeds, c->count, c->steps, c->rows, &c->reach);
     SLI_ZERO(c->n_children, c->reach.count);
     SLI_ZERO(c->n_inside, c->reach.count);
-    memset(c->is_inside, 0, (size_t)c->reach.count);
+    SLI_ZERO(c->is_inside, c->reach.count);
     SLI_ZERO(c->needed, c->reach.columns);
     c->rows_begin[0] = 0;
     for (k = 0; k < c->reach.count; k++) {

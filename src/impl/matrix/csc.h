@@ -97,9 +97,7 @@ static sl_triangle sli_triangle_scan(const sl_csc *A) {
 static sl_triangle sli_csc_columns(const sl_csc *A, sl_int *column) {
     const sl_int nnz = sli_nnz(A), *row = A->i;
     sl_int j, p, here = 0, below = 0, above = 0;
-    for (p = 0; p < nnz; p++) {
-        column[p] = 0;
-    }
+    SLI_ZERO(column, nnz);
     for (j = 1; j < A->n_cols && A->p[j] < nnz; j++) {
         column[A->p[j]]++;
     }

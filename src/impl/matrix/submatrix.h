@@ -9,9 +9,7 @@
  * position of a row that is out of range or given twice, or -1. */
 static sl_int sli_rows_invert(const sl_int *rows, sl_int count, sl_int n, sl_int *where) {
     sl_int k;
-    for (k = 0; k < n; k++) {
-        where[k] = -1;
-    }
+    SLI_NONE(where, n);
     for (k = 0; k < count; k++) {
         if (rows[k] < 0 || rows[k] >= n || where[rows[k]] >= 0) {
             return k;

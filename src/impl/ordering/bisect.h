@@ -211,7 +211,7 @@ static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *q
                                     unsigned char *seen) {
     sl_int head, tail = 0;
     sl_off e;
-    memset(seen, 0, (size_t)sub->n);
+    SLI_ZERO(seen, sub->n);
     queue[tail++] = v;
     seen[v] = 1;
     for (head = 0; head < tail; head++) {
@@ -233,7 +233,7 @@ static void sli_fm_grow(sli_fm *m, sl_int seed) {
     sub->total[0] = 0;
     m->heap[1].count = 0;
     memset(sub->side, 1, (size_t)sub->n);
-    memset(m->locked, 0, (size_t)sub->n);
+    SLI_ZERO(m->locked, sub->n);
     for (v = 0; v < sub->n; v++) {
         m->heap[0].position[v] = -1;
         m->gain[v] = -m->degree[v];

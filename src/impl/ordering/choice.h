@@ -36,9 +36,8 @@ typedef struct sli_graph_facts {
 typedef enum sli_order_way {
     SLI_TRY_LEVELS, /* count what an order by levels costs, and choose again */
     SLI_TRY_MINDEG, /* the same of minimum degree */
-    SLI_BY_LEVELS,
-    SLI_BY_MINDEG,
-    SLI_BY_CUTS, /* of minimum degree, which was tried */
+    SLI_BY_TRIED,   /* perm has it */
+    SLI_BY_CUTS,    /* of minimum degree, which was tried */
     SLI_BY_DISSECTION
 } sli_order_way;
 
@@ -51,23 +50,23 @@ static const struct sli_order_rule {
 } sli_order_rules[] = {
     /* K strips and tube, one factor: 1.5 to 1.6 */
     {SLI_WANTS_ONE_FACTOR, SLI_TRIED_LEVELS, SLI_TRY_LEVELS},
-    {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_LEVELS},
+    {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_TRIED},
     /* K surfaces and volumes, one factor: 1.3 to 3 */
     {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
-    {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
+    {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_TRIED},
     /* networks with hubs, one factor: twice the entries of L */
-    {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
+    {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_TRIED},
     /* What minimum degree costs is known in a fraction of the time, but thin graphs are dissected
      * along their levels in less. */
     {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     /* Q random: 2.8; dissection also has more fill and longer paths */
-    {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
+    {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_TRIED},
     /* least squares, lasso, Huber and portfolio programs (test_order_kkt.c): 1.5 */
-    {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
+    {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_TRIED},
     /* Q PDE control: 1.9 to 2.3; dissection saves 13 to 20 % of the paths for 14 to 20 % of fill */
-    {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_MINDEG},
+    {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_TRIED},
     /* K fans: 2.5 to 3; a power network (bcspwr10): 1.8, for 9 % more entries on paths */
     {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_LITTLE_FILL, 0, SLI_BY_CUTS},
     /* all else, such as K surfaces and volumes by default */
@@ -109,9 +108,7 @@ static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
     if (G->begin[G->n] <= 4 * (sl_off)G->n) {
         return 0;
     }
-    for (root = 0; root < G->n; root++) {
-        side[root] = -1;
-    }
+    SLI_NONE(side, G->n);
     for (root = 0, head = 0; root < G->n; root++) {
         if (side[root] == -1) {
             side[root] = 0;

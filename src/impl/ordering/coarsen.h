@@ -49,9 +49,7 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
 static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
     sl_off k;
     sl_int v, pairs = 0;
-    for (v = 0; v < g->n; v++) {
-        mate[v] = -1;
-    }
+    SLI_NONE(mate, g->n);
     for (k = 0; k < (sl_off)g->n + 511; k++) {
         const sl_off at = sli_visited(k);
         sl_int u;
@@ -183,9 +181,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
                                         sli_clusters *clusters, sl_int *weight) {
     sl_int v, best, count = 0, members = 0;
     sl_off e, k;
-    for (v = 0; v < g->n; v++) {
-        g->coarse[v] = -1;
-    }
+    SLI_NONE(g->coarse, g->n);
     clusters->start[0] = 0;
     for (k = 0; k < (sl_off)g->n + 511; k++) {
         const sl_off at = sli_visited(k), ahead = at + 8192;

@@ -179,7 +179,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
     const sl_off low = ((sl_off)1 << bits) - 1;
     const int is_plain = (bits > 0) & (g->edge == NULL) & (g->hub_degree == 0);
     sl_int k, m;
-    memset(at, -1, (size_t)c->n * sizeof(sl_off));
+    SLI_NONE(at, c->n);
     for (k = r->first; k < r->last; k++) {
         const sl_off first = count;
         c->begin[k] = first;

@@ -87,7 +87,7 @@ SLI_INLINE sl_off sli_cuts_append(sli_cuts *c, sl_int s, sl_int k, sl_off end) {
 static void sli_cuts_fill(sli_cuts *c, const sli_graph *G) {
     sl_int *child = c->tree, *sibling = c->spare, s, t, k;
     sl_off end = 0, e;
-    memset(child, -1, (size_t)c->nodes * sizeof(sl_int));
+    SLI_NONE(child, c->nodes);
     for (s = 0; s < c->nodes; s++) {
         c->begin[s] = end;
         for (k = c->start[s]; k < c->start[s + 1]; k++) {

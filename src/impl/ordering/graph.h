@@ -126,7 +126,7 @@ SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
 
 /* Does a row have over 10 sqrt(n) neighbors? It connects everything, and is eliminated last. */
 SLI_INLINE int sli_is_dense_row(sl_off degree, sl_int n) {
-    return sli_exceeds_sqrt(degree, 10, n);
+    return degree * degree > 100 * (sl_off)n;
 }
 
 /* post[k] := the k-th of n nodes of a forest in postorder. Roots, and children of a node, follow

@@ -18,8 +18,8 @@ typedef struct sli_order_choice {
     int has_tree;   /* A is a forest, and L has no fill */
 } sli_order_choice;
 
-/* An ordering under way. The caller of sli_order fills the first part; each step that reduces the
- * graph hands on a copy of the job with the reduced graph, and expands what comes back. */
+/* An ordering under way. The caller of sli_order fills the first part and clears the rest. A step
+ * that reduces the graph hands on a copy with what is left, and expands what comes back. */
 typedef struct sli_order_job {
     const sl_csc *A;
     const sl_int *column; /* nnz: of each entry */

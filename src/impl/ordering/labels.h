@@ -238,11 +238,9 @@ static void sli_borders_fill(sli_borders *l, const sli_labelling *in, const sli_
     const sli_level *g = in->g;
     const sli_label_tree *t = in->tree;
     const sl_int *label = in->label;
-    sl_int v, k;
+    sl_int v;
     sl_off e;
-    for (k = 0; k < t->count; k++) {
-        l->head[k] = -1;
-    }
+    SLI_NONE(l->head, t->count);
     for (v = r->first; v < r->last; v++) {
         const sl_int own = label[v];
         sl_int last = own, listed = -1;

@@ -71,11 +71,9 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d) {
  * distance, at most 2 n. */
 static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *order,
                                   sl_int *distance) {
-    sl_int v, head = 0, tail = 0, unseen = 0;
+    sl_int head = 0, tail = 0, unseen = 0;
     sl_off e;
-    for (v = 0; v < sub->n; v++) {
-        distance[v] = -1;
-    }
+    SLI_NONE(distance, sub->n);
     distance[from] = 0;
     order[tail++] = from;
     for (;;) {

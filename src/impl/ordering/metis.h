@@ -74,9 +74,7 @@ static sl_status sli_order_metis(const sli_order_job *job) {
     sl_int *perm = job->perm, *local = job->scratch;
     sl_int root, head, tail = 0, start;
     sl_status status = SL_OK;
-    for (root = 0; root < G->n; root++) {
-        local[root] = -1;
-    }
+    SLI_NONE(local, G->n);
     for (root = 0; root < G->n && status == SL_OK; root++) {
         if (local[root] >= 0) {
             continue;

@@ -240,9 +240,7 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
     sl_status status = SL_OK;
     septree->count = 0;
     for (k = 0; k < w->d.team->workers; k++) {
-        for (v = 0; v < n; v++) {
-            w->d.workers[k].subgraph.local[v] = -1;
-        }
+        SLI_NONE(w->d.workers[k].subgraph.local, n);
     }
     for (v = 0; v < n && status == SL_OK; v++) {
         if (w->local[v] == -1) {

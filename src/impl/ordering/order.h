@@ -32,12 +32,6 @@ static sl_status sli_order_given(const sli_order_job *job) {
     return SL_OK;
 }
 
-/* Orders the graph of a job by minimum degree. */
-static sl_status sli_order_quickly(const sli_order_job *job) {
-    sli_order_cost cost;
-    return sli_order_mindeg(job, job->scratch, &cost);
-}
-
 /* Orders the graph of a job, with indistinguishable rows as one vertex if that is worthwhile.
  * Nobody looks for them in a graph twice. */
 static sl_status sli_order_compressed(const sli_order_job *job,
@@ -61,10 +55,14 @@ static sl_status sli_order_compressed(const sli_order_job *job,
     return status;
 }
 
-/* Describes what is left of the graph, chooses, and orders it. */
+/* Orders what is left of the graph as its description suggests. */
 static sl_status sli_order_chosen(const sli_order_job *job) {
-    sli_graph_facts f = sli_graph_describe(job);
+    sli_graph_facts f;
     sl_status status = SL_OK;
+    if (job->ordering == SL_ORDERING_MINDEG) {
+        return sli_order_mindeg(job, job->scratch, &f.cost);
+    }
+    f = sli_graph_describe(job);
     while (status == SL_OK) {
         switch (sli_order_choose(&f)) { /* branches untested: each has a case */
         case SLI_TRY_LEVELS:
@@ -75,10 +73,8 @@ static sl_status sli_order_chosen(const sli_order_job *job) {
             status = sli_order_mindeg(job, job->scratch, &f.cost);
             sli_graph_describe_mindeg(job, &f); /* the scratch has the vertices of each pivot */
             break;
-        case SLI_BY_LEVELS: /* perm has it already */
+        case SLI_BY_TRIED:
             return SL_OK;
-        case SLI_BY_MINDEG:
-            return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_quickly(job);
         case SLI_BY_CUTS:
             return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
         case SLI_BY_DISSECTION:
@@ -88,36 +84,18 @@ static sl_status sli_order_chosen(const sli_order_job *job) {
     return status;
 }
 
-/* The orderings of a graph that the user chooses, each with what it does with the graph that is
- * left. */
-static const struct sli_graph_ordering {
-    sl_ordering ordering;
-    int reduces; /* rows with few neighbors and indistinguishable rows are dealt with before */
-    sl_status (*order)(const sli_order_job *);
-} sli_graph_orderings[] = {{SL_ORDERING_ND, 1, sli_order_chosen},
-#if defined(SLI_METIS)
-                           {SL_ORDERING_METIS, 0, sli_order_metis},
-#endif
-                           {SL_ORDERING_MINDEG, 1, sli_order_quickly}};
-
-/* The one that the options name; GIVEN and NATURAL need no graph. */
-static const struct sli_graph_ordering *sli_graph_ordering_of(sl_ordering ordering) {
-    size_t k = 0;
-    while (sli_graph_orderings[k].ordering != ordering) {
-        k++;
-    }
-    return &sli_graph_orderings[k];
-}
-
-/* Orders what is left of the graph. Minimum degree finds indistinguishable rows as it goes, but
- * once more in the list of each of their neighbors: where some of these are long, rows are
- * compressed first. */
+/* Orders what is left of the graph. Minimum degree finds indistinguishable rows in the list of each
+ * neighbor: where some of these are long, rows are compressed first. */
 static sl_status sli_order_rest(const sli_order_job *job) {
-    const struct sli_graph_ordering *chosen = sli_graph_ordering_of(job->ordering);
     const sl_off n = job->G->n, mean = n > 0 ? job->G->begin[n] / n : 0;
-    return chosen->reduces && mean * mean <= n && sli_graph_is_irregular(job->G, job->is_peeled)
-               ? sli_order_compressed(job, chosen->order)
-               : chosen->order(job);
+#if defined(SLI_METIS)
+    if (job->ordering == SL_ORDERING_METIS) {
+        return sli_order_metis(job);
+    }
+#endif
+    return mean * mean <= n && sli_graph_is_irregular(job->G, job->is_peeled)
+               ? sli_order_compressed(job, sli_order_chosen)
+               : sli_order_chosen(job);
 }
 
 /* The same, after rows with at most two neighbors have been eliminated. */
@@ -165,7 +143,6 @@ static void sli_order_expand(const sli_order_job *job) {
 
 /* Orders the rows by the graph of A, with blocks of rows as vertices. */
 static sl_status sli_order_by_graph(sli_order_job *job) {
-    const int may_peel = sli_graph_ordering_of(job->ordering)->reduces;
     sli_graph G;
     sli_block b = {NULL, 0};
     sl_status status = SL_OK;
@@ -182,8 +159,9 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
     status = sli_graph_make_canonical(&G, job->a);
     job->G = &G;
     if (status == SL_OK) {
-        status =
-            may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_rest(job);
+        status = job->ordering != SL_ORDERING_METIS && sli_peel_is_worthwhile(&G)
+                     ? sli_order_peeled(job)
+                     : sli_order_rest(job);
     }
     if (status == SL_OK && job->block > 1) {
         sli_order_expand(job);
@@ -231,10 +209,7 @@ static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
  * ordering has one. */
 static sl_status sli_order(sli_order_job *job) {
     const sl_options *opt = job->opt;
-    const char *wrong;
-    job->septree->count = 0;
-    job->choice->has_tree = 0;
-    wrong = sli_order_options_wrong(opt, job->A->n_cols);
+    const char *wrong = sli_order_options_wrong(opt, job->A->n_cols);
     if (wrong != NULL) {
         return sli_order_refuse(job, SL_ERR_ARGUMENT, wrong);
     }
@@ -242,9 +217,7 @@ static sl_status sli_order(sli_order_job *job) {
     job->is_hurried = sli_order_is_hurried(opt);
     job->block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
     job->is_small = job->A->n_cols / job->block < SLI_DISSECT_SMALL;
-    job->is_peeled = 0;
     job->may_compress = 1;
-    job->weight = NULL;
     switch (job->ordering) {
     case SL_ORDERING_GIVEN:
         return sli_order_given(job);

@@ -11,13 +11,14 @@
 
 #define SLI_QUOTIENT_LONG 32 /* of longer lists of variables nearly all entries are left */
 
-enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 }; /* instead of a number of elements */
+/* instead of a number of elements */
+enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2, SLI_QUOTIENT_WAITS = -3 };
 
 /* What is read together of a variable or an element: half a cache line. */
 typedef struct sli_quotient_node {
     sl_off begin;    /* where its list begins */
     sl_int length;   /* entries in it; 0 if it is dead */
-    sl_int elements; /* elements in the list of a variable, or SLI_QUOTIENT_PIVOT, _MERGED */
+    sl_int elements; /* elements in the list of a variable, or SLI_QUOTIENT_PIVOT, ... */
     sl_int degree;   /* bound on the external degree; of an element, weight of its list */
     sl_int next;     /* list of equal degrees; chain of equal hashes within the front */
     sl_int previous; /* list of equal degrees; the hash within the front */
@@ -27,7 +28,10 @@ typedef struct sli_quotient_node {
 /* The quotient graph. A variable stands for rows that have become indistinguishable. A pivot
  * becomes an element, whose list names the variables of its front. The list of a variable holds
  * elements first, then the variables that only an entry of A joins to it. No list ever grows, so
- * that the graph stays within its first size, plus one front that is being formed. [ADD96] */
+ * that the graph stays within its first size, plus one front that is being formed. [ADD96]
+ *
+ * A variable of far more neighbors than the pivot waits: its degree is a lower bound, its list not
+ * updated. That takes 9/10 of the time where many constraints share few variables. */
 typedef struct sli_quotient {
     sl_int n, total;         /* vertices of the graph, and the rows that they stand for */
     sl_off end, room;        /* of list: positions used, and available */
@@ -119,9 +123,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_order_job *job) {
         }
         q->node[v].length = (sl_int)(q->end - q->node[v].begin);
     }
-    for (v = 0; v < q->total; v++) {
-        q->head[v] = -1;
-    }
+    SLI_NONE(q->head, q->total);
     for (v = 0; v < q->n; v++) { /* the last row comes first: see sli_order_mindeg */
         if (q->weight[v] != 0) {
             sli_quotient_enqueue(q, v);
@@ -185,25 +187,20 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
     sl_off at, begin, to;
     q->node[pivot].elements = SLI_QUOTIENT_PIVOT;
     q->weight[pivot] = -q->weight[pivot]; /* stays out of its own front */
-    if (elements == 0) {
-        begin = q->node[pivot].begin;
-        to = sli_quotient_gather(q, begin, q->node[pivot].length, begin, &total);
-    } else {
-        if (q->room - q->end < q->n - q->pivots) {
-            sli_quotient_collect(q);
-        }
-        at = q->node[pivot].begin;
-        begin = to = q->end;
-        for (k = 0; k < elements; k++) {
-            const sl_int e = q->list[at + k];
-            SLI_ASSERT(q->mark[e] != 0); /* lists lose absorbed elements with each front */
-            to = sli_quotient_gather(q, q->node[e].begin, q->node[e].length, to, &total);
-            sli_quotient_absorb(q, e, pivot);
-        }
-        to = sli_quotient_gather(q, at + elements, q->node[pivot].length - elements, to, &total);
-        q->node[pivot].begin = begin;
-        q->end = to;
+    if (elements > 0 && q->room - q->end < q->n - q->pivots) {
+        sli_quotient_collect(q);
     }
+    at = q->node[pivot].begin;
+    begin = to = elements > 0 ? q->end : at; /* without elements in place */
+    for (k = 0; k < elements; k++) {
+        const sl_int e = q->list[at + k];
+        SLI_ASSERT(q->mark[e] != 0); /* lists lose absorbed elements with each front */
+        to = sli_quotient_gather(q, q->node[e].begin, q->node[e].length, to, &total);
+        sli_quotient_absorb(q, e, pivot);
+    }
+    to = sli_quotient_gather(q, at + elements, q->node[pivot].length - elements, to, &total);
+    q->end = elements > 0 ? to : q->end;
+    q->node[pivot].begin = begin;
     q->node[pivot].length = (sl_int)(to - begin);
     return total;
 }
@@ -213,14 +210,8 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
 static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
     const sl_int *front = q->list + q->node[pivot].begin;
     const sl_int size = q->node[pivot].length;
-    sl_int k, p, v, base;
-    if (q->base > INT32_MAX - 3 * (sl_off)q->total - 3) {
-        for (v = 0; v < q->n; v++) {
-            q->mark[v] = q->mark[v] != 0;
-        }
-        q->base = 2;
-    }
-    base = q->base;
+    const sl_int base = q->base;
+    sl_int k, p;
     for (k = 0; k < size; k++) {
         const sl_int weight = -q->weight[front[k]], count = q->node[front[k]].elements;
         const sl_int *elements = q->list + q->node[front[k]].begin;
@@ -335,6 +326,60 @@ static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
     }
 }
 
+/* Is a degree far above the least one? */
+SLI_INLINE int sli_quotient_is_far(sl_int degree, sl_int least) {
+    return degree >> 3 > least + 4;
+}
+
+/* Updates a variable that waits. If its degree is far, it waits on. */
+static void sli_quotient_catch_up(sli_quotient *q, sl_int v) {
+    sli_quotient_node *p = &q->node[v];
+    sl_int *list = q->list + p->begin;
+    const sl_int most = q->live - q->rows - q->weight[v], length = p->length;
+    sl_int k, elements = 0, to = 0, degree = 0;
+    sl_off at, end;
+    q->mark[v] = q->base;
+    for (k = 0; k < length; k++) {
+        sl_int u = list[k];
+        const int is_pivot = q->node[u].elements == SLI_QUOTIENT_PIVOT;
+        while (is_pivot && q->node[u].into != -1) {
+            u = q->node[u].into;
+        }
+        if (q->weight[u] == 0 || q->mark[u] == q->base) {
+            continue;
+        }
+        q->mark[u] = q->base;
+        degree += is_pivot ? 0 : q->weight[u];
+        list[to++] = list[elements];
+        list[is_pivot ? elements++ : to - 1] = u;
+    }
+    p->length = to;
+    for (k = 0; k < elements && degree < most && !sli_quotient_is_far(degree, q->least); k++) {
+        at = q->node[list[k]].begin;
+        for (end = at + q->node[list[k]].length; at < end; at++) {
+            const sl_int u = q->list[at];
+            degree += q->mark[u] == q->base ? 0 : q->weight[u];
+            q->mark[u] = q->base;
+        }
+    }
+    q->base++;
+    p->elements = sli_quotient_is_far(degree, q->least) ? SLI_QUOTIENT_WAITS : elements;
+    p->degree = degree;
+    sli_quotient_enqueue(q, v);
+}
+
+/* Does v wait, which has no elements? Its degree loses the rows eliminated, after the caller has
+ * added what is left of the front. pivot: its weight, negative. */
+static int sli_quotient_waits(sli_quotient *q, sl_int v, sl_int total, sl_int pivot) {
+    sli_quotient_node *p = &q->node[v];
+    if (p->elements == 0 && !sli_quotient_is_far(p->degree, total)) {
+        return 0;
+    }
+    p->elements = SLI_QUOTIENT_WAITS;
+    p->degree = sli_max(p->degree - total + pivot - q->weight[v], 0);
+    return 1;
+}
+
 /* Eliminates a variable of least degree, and with it those that have no other neighbors. */
 static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
     const sl_int total = sli_quotient_form(q, pivot), count = q->node[pivot].length;
@@ -345,6 +390,9 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
     sli_quotient_overlaps(q, pivot);
     for (k = 0; k < count; k++) {
         const sl_int v = front[k];
+        if (q->node[v].elements <= 0 && sli_quotient_waits(q, v, total, q->weight[pivot])) {
+            continue;
+        }
         if (!sli_quotient_rewrite(q, v, pivot)) {
             left += q->weight[v];
             q->rows -= q->weight[v];
@@ -354,7 +402,7 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
     q->widest = total > q->widest ? total : q->widest;
     q->base += q->widest + 1;
     for (k = 0; k < count; k++) {
-        if (q->weight[front[k]] != 0) {
+        if (q->node[front[k]].elements > 0) {
             const sl_int hash = q->node[front[k]].previous, first = q->bucket[hash];
             q->bucket[hash] = -1;
             sli_quotient_merge_chain(q, first);

@@ -60,9 +60,9 @@ typedef struct sli_order_cost {
 /* below: n of scratch, for the rows of each subtree; then for the tallest pivot of each path. */
 static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_cost *cost) {
     sl_int k;
+    SLI_CLEAR(*cost);
     cost->flops = 0.25 * q->flops;
     cost->widest = q->widest;
-    cost->entries = cost->paths = cost->fronts = cost->lists = 0.0;
     cost->pivots = q->pivots;
     SLI_ZERO(below, q->n);
     for (k = 0; k < q->pivots; k++) {
@@ -107,9 +107,19 @@ static sl_status sli_order_mindeg(const sli_order_job *job, sl_int *sizes, sli_o
         while (q.head[q.least] == -1) {
             q.least++;
         }
+        if (q.base > INT32_MAX - 3 * (sl_off)q.total - 3) {
+            for (pivot = 0; pivot < q.n; pivot++) {
+                q.mark[pivot] = q.mark[pivot] != 0;
+            }
+            q.base = 2;
+        }
         pivot = q.head[q.least];
         sli_quotient_dequeue(&q, pivot);
-        sli_quotient_eliminate(&q, pivot);
+        if (q.node[pivot].elements == SLI_QUOTIENT_WAITS) {
+            sli_quotient_catch_up(&q, pivot);
+        } else {
+            sli_quotient_eliminate(&q, pivot);
+        }
     }
     sli_quotient_cost(&q, q.head, cost);
     sli_quotient_write(&q, job->perm, sizes);

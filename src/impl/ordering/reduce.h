@@ -4,18 +4,16 @@
 
 #include "job.h"
 
-/* Does A store a diagonal entry in column j? */
-static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
-    sl_int p = A->p[j];
-    while (p < A->p[j + 1] && A->i[p] != j) {
+/* Has a row no diagonal entry, but many neighbors? */
+static int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
+    sl_int p = A->p[row];
+    if (degree < 8 || degree * degree < A->n_cols) {
+        return 0;
+    }
+    while (p < A->p[row + 1] && A->i[p] != row) {
         p++;
     }
-    return p < A->p[j + 1];
-}
-
-/* Has this row so many neighbors that, without a diagonal entry, it is a constraint? */
-SLI_INLINE int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
-    return degree >= 8 && degree * degree >= A->n_cols && !sli_order_has_diagonal(A, row);
+    return p == A->p[row + 1];
 }
 
 /* A row with many neighbors and without a diagonal entry is a constraint, as in [L m; m' 0] with a
@@ -28,7 +26,9 @@ static void sli_order_border(const sli_order_job *job) {
     sl_int *perm = job->perm, *position = job->scratch;
     sl_int k, v, last;
     sl_off e;
-    for (v = 0; v < G->n && !sli_order_is_constraint(A, v, sli_graph_degree(G, v)); v++) {
+    for (v = 0; v < G->n && (sli_graph_degree(G, v) < 8 ||
+                           !sli_order_is_constraint(A, v, sli_graph_degree(G, v)));
+         v++) {
     }
     if (v == G->n) {
         return; /* usual */
@@ -93,7 +93,7 @@ static int sli_order_forest(const sli_order_job *job) {
     if (nnz >= (job->triangle == SL_TRIANGLE_BOTH ? 3 : 2) * (int64_t)n) {
         return 0;
     }
-    memset(degree, 0, 2 * (size_t)n * sizeof(sl_int));
+    SLI_ZERO(degree, 2 * (size_t)n);
     for (p = 0; p < nnz; p++) {
         const sl_int i = A->i[p], j = job->column[p];
         const int is_edge = i != j && sli_is_read(job->triangle, i, j);
@@ -104,7 +104,7 @@ static int sli_order_forest(const sli_order_job *job) {
         edges += is_edge;
     }
     for (k = 0; k < n && edges < n; k++) {
-        if (sli_order_is_constraint(A, k, degree[k])) {
+        if (degree[k] >= 8 && sli_order_is_constraint(A, k, degree[k])) {
             return 0;
         }
     }

@@ -82,7 +82,7 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
     const int64_t n = t->g->n;
     int64_t squares = 0;
     sl_int first = 0, last = 1, levels = 0;
-    memset(t->mark, -1, (size_t)n * sizeof(sl_int));
+    SLI_NONE(t->mark, n);
     t->queue[0] = root;
     t->mark[root] = 0;
     while (first < last) {
