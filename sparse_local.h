@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 54aa45390dee17e1
+ * FNV-1a of the lines after this comment, without the license: 3aacd3175cfe9998
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,28 +33,28 @@
  *   2666 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2730 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2773 impl/ base: the compiler, status, memory, sorting, threads
- *   4085 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4966 impl/ matrix: sparse matrices of the caller and of the library
- *   5828 impl/ ordering: fill-reducing orderings of a graph
- *  10589 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12838 impl/ factor: the numbers of L and D
- *  15427 impl/ solve: full and local solves
- *  16939 impl/ singular: null spaces of semidefinite matrices
- *  18190 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20229 impl/ pivots: the order of the pivots by the values of a matrix
- *  20633 impl/ float: L in single precision
- *  20816 impl/ inverse: entries of the inverse, regions
- *  23718 impl/ change: a factor that follows changes of its matrix
- *  25988 impl/ constraints: rows held at values, on a factor that stays
- *  27339 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30059 impl/ fixed: rows fixed at given values
- *  30615 impl/ io: files that are replaced only when they are complete
- *  30834 impl/ files: Matrix Market files, 64-bit indices
- *  31390 impl/ save: factors in files
- *  33361 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34045 impl/ complex: complex Hermitian systems over real factors
- *  34513 impl/ packs: the tables through which the core calls packs
- *  34937 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4082 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4963 impl/ matrix: sparse matrices of the caller and of the library
+ *   5821 impl/ ordering: fill-reducing orderings of a graph
+ *  10596 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  12841 impl/ factor: the numbers of L and D
+ *  15430 impl/ solve: full and local solves
+ *  16942 impl/ singular: null spaces of semidefinite matrices
+ *  18193 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20232 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20636 impl/ float: L in single precision
+ *  20819 impl/ inverse: entries of the inverse, regions
+ *  23721 impl/ change: a factor that follows changes of its matrix
+ *  25991 impl/ constraints: rows held at values, on a factor that stays
+ *  27342 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30054 impl/ fixed: rows fixed at given values
+ *  30610 impl/ io: files that are replaced only when they are complete
+ *  30829 impl/ files: Matrix Market files, 64-bit indices
+ *  31385 impl/ save: factors in files
+ *  33356 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34036 impl/ complex: complex Hermitian systems over real factors
+ *  34504 impl/ packs: the tables through which the core calls packs
+ *  34929 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3036,6 +3036,7 @@ SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
 }
 
 #define SLI_CLEAR(object) memset(&(object), 0, sizeof(object))
+#define SLI_NONE(to, count) memset(to, -1, (size_t)(count) * sizeof *(to))
 #define SLI_ZERO(to, count) memset(to, 0, (size_t)(count) * sizeof *(to))
 #define SLI_COPY(to, from, count) memcpy(to, from, (size_t)(count) * sizeof *(to))
 
@@ -3080,10 +3081,6 @@ SLI_INLINE sl_int sli_max(sl_int a, sl_int b) {
 
 SLI_INLINE sl_int sli_clamp(sl_int a, sl_int high) {
   return a < 0 ? 0 : a > high ? high : a;
-}
-
-SLI_INLINE int sli_exceeds_sqrt(int64_t a, sl_int factor, sl_int n) {
-  return (uint64_t)a * (uint64_t)a > (uint64_t)(factor * factor) * (uint64_t)n;
 }
 
 SLI_INLINE int sli_is_finite(double a) {
@@ -5047,9 +5044,7 @@ static sl_triangle sli_triangle_scan(const sl_csc *A) {
 static sl_triangle sli_csc_columns(const sl_csc *A, sl_int *column) {
   const sl_int nnz = sli_nnz(A), *row = A->i;
   sl_int j, p, here = 0, below = 0, above = 0;
-  for (p = 0; p < nnz; p++) {
-    column[p] = 0;
-  }
+  SLI_ZERO(column, nnz);
   for (j = 1; j < A->n_cols && A->p[j] < nnz; j++) {
     column[A->p[j]]++;
   }
@@ -5656,9 +5651,7 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
 
 static sl_int sli_rows_invert(const sl_int *rows, sl_int count, sl_int n, sl_int *where) {
   sl_int k;
-  for (k = 0; k < n; k++) {
-    where[k] = -1;
-  }
+  SLI_NONE(where, n);
   for (k = 0; k < count; k++) {
     if (rows[k] < 0 || rows[k] >= n || where[rows[k]] >= 0) {
       return k;
@@ -5932,7 +5925,7 @@ SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
 }
 
 SLI_INLINE int sli_is_dense_row(sl_off degree, sl_int n) {
-  return sli_exceeds_sqrt(degree, 10, n);
+  return degree * degree > 100 * (sl_off)n;
 }
 
 static void sli_postorder(const sl_int *parent, const sl_int *sequence, sl_int n, sl_int *post,
@@ -6024,16 +6017,15 @@ SLI_COLD static sl_status sli_order_refuse(const sli_order_job *job, sl_status s
 
 /* src/impl/ordering/reduce.h: rows ordered apart: those with few neighbors first, constraints last */
 
-static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
-  sl_int p = A->p[j];
-  while (p < A->p[j + 1] && A->i[p] != j) {
+static int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
+  sl_int p = A->p[row];
+  if (degree < 8 || degree * degree < A->n_cols) {
+    return 0;
+  }
+  while (p < A->p[row + 1] && A->i[p] != row) {
     p++;
   }
-  return p < A->p[j + 1];
-}
-
-SLI_INLINE int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
-  return degree >= 8 && degree * degree >= A->n_cols && !sli_order_has_diagonal(A, row);
+  return p == A->p[row + 1];
 }
 
 static void sli_order_border(const sli_order_job *job) {
@@ -6042,7 +6034,9 @@ static void sli_order_border(const sli_order_job *job) {
   sl_int *perm = job->perm, *position = job->scratch;
   sl_int k, v, last;
   sl_off e;
-  for (v = 0; v < G->n && !sli_order_is_constraint(A, v, sli_graph_degree(G, v)); v++) {
+  for (v = 0; v < G->n && (sli_graph_degree(G, v) < 8 ||
+      !sli_order_is_constraint(A, v, sli_graph_degree(G, v)));
+      v++) {
   }
   if (v == G->n) {
     return;
@@ -6099,7 +6093,7 @@ static int sli_order_forest(const sli_order_job *job) {
   if (nnz >= (job->triangle == SL_TRIANGLE_BOTH ? 3 : 2) * (int64_t)n) {
     return 0;
   }
-  memset(degree, 0, 2 * (size_t)n * sizeof(sl_int));
+  SLI_ZERO(degree, 2 * (size_t)n);
   for (p = 0; p < nnz; p++) {
     const sl_int i = A->i[p], j = job->column[p];
     const int is_edge = i != j && sli_is_read(job->triangle, i, j);
@@ -6110,7 +6104,7 @@ static int sli_order_forest(const sli_order_job *job) {
     edges += is_edge;
   }
   for (k = 0; k < n && edges < n; k++) {
-    if (sli_order_is_constraint(A, k, degree[k])) {
+    if (degree[k] >= 8 && sli_order_is_constraint(A, k, degree[k])) {
       return 0;
     }
   }
@@ -6480,7 +6474,7 @@ static void sli_contract_range(void *data, const sli_range *r) {
   const sl_off low = ((sl_off)1 << bits) - 1;
   const int is_plain = (bits > 0) & (g->edge == NULL) & (g->hub_degree == 0);
   sl_int k, m;
-  memset(at, -1, (size_t)c->n * sizeof(sl_off));
+  SLI_NONE(at, c->n);
   for (k = r->first; k < r->last; k++) {
     const sl_off first = count;
     c->begin[k] = first;
@@ -6600,9 +6594,7 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
 static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
   sl_off k;
   sl_int v, pairs = 0;
-  for (v = 0; v < g->n; v++) {
-    mate[v] = -1;
-  }
+  SLI_NONE(mate, g->n);
   for (k = 0; k < (sl_off)g->n + 511; k++) {
     const sl_off at = sli_visited(k);
     sl_int u;
@@ -6710,9 +6702,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
     sli_clusters *clusters, sl_int *weight) {
   sl_int v, best, count = 0, members = 0;
   sl_off e, k;
-  for (v = 0; v < g->n; v++) {
-    g->coarse[v] = -1;
-  }
+  SLI_NONE(g->coarse, g->n);
   clusters->start[0] = 0;
   for (k = 0; k < (sl_off)g->n + 511; k++) {
     const sl_off at = sli_visited(k), ahead = at + 8192;
@@ -7010,11 +7000,9 @@ static void sli_borders_fill(sli_borders *l, const sli_labelling *in, const sli_
   const sli_level *g = in->g;
   const sli_label_tree *t = in->tree;
   const sl_int *label = in->label;
-  sl_int v, k;
+  sl_int v;
   sl_off e;
-  for (k = 0; k < t->count; k++) {
-    l->head[k] = -1;
-  }
+  SLI_NONE(l->head, t->count);
   for (v = r->first; v < r->last; v++) {
     const sl_int own = label[v];
     sl_int last = own, listed = -1;
@@ -7533,7 +7521,7 @@ static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *q
     unsigned char *seen) {
   sl_int head, tail = 0;
   sl_off e;
-  memset(seen, 0, (size_t)sub->n);
+  SLI_ZERO(seen, sub->n);
   queue[tail++] = v;
   seen[v] = 1;
   for (head = 0; head < tail; head++) {
@@ -7553,7 +7541,7 @@ static void sli_fm_grow(sli_fm *m, sl_int seed) {
   sub->total[0] = 0;
   m->heap[1].count = 0;
   memset(sub->side, 1, (size_t)sub->n);
-  memset(m->locked, 0, (size_t)sub->n);
+  SLI_ZERO(m->locked, sub->n);
   for (v = 0; v < sub->n; v++) {
     m->heap[0].position[v] = -1;
     m->gain[v] = -m->degree[v];
@@ -8628,11 +8616,9 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d) {
 
 static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *order,
     sl_int *distance) {
-  sl_int v, head = 0, tail = 0, unseen = 0;
+  sl_int head = 0, tail = 0, unseen = 0;
   sl_off e;
-  for (v = 0; v < sub->n; v++) {
-    distance[v] = -1;
-  }
+  SLI_NONE(distance, sub->n);
   distance[from] = 0;
   order[tail++] = from;
   for (;;) {
@@ -8773,7 +8759,7 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
   const int64_t n = t->g->n;
   int64_t squares = 0;
   sl_int first = 0, last = 1, levels = 0;
-  memset(t->mark, -1, (size_t)n * sizeof(sl_int));
+  SLI_NONE(t->mark, n);
   t->queue[0] = root;
   t->mark[root] = 0;
   while (first < last) {
@@ -9088,9 +9074,7 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
   sl_status status = SL_OK;
   septree->count = 0;
   for (k = 0; k < w->d.team->workers; k++) {
-    for (v = 0; v < n; v++) {
-      w->d.workers[k].subgraph.local[v] = -1;
-    }
+    SLI_NONE(w->d.workers[k].subgraph.local, n);
   }
   for (v = 0; v < n && status == SL_OK; v++) {
     if (w->local[v] == -1) {
@@ -9385,9 +9369,7 @@ static sl_status sli_order_metis(const sli_order_job *job) {
   sl_int *perm = job->perm, *local = job->scratch;
   sl_int root, head, tail = 0, start;
   sl_status status = SL_OK;
-  for (root = 0; root < G->n; root++) {
-    local[root] = -1;
-  }
+  SLI_NONE(local, G->n);
   for (root = 0; root < G->n && status == SL_OK; root++) {
     if (local[root] >= 0) {
       continue;
@@ -9496,7 +9478,7 @@ static int sli_order_levels(const sli_order_job *job) {
 
 #define SLI_QUOTIENT_LONG 32
 
-enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 };
+enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2, SLI_QUOTIENT_WAITS = -3 };
 
 typedef struct sli_quotient_node {
   sl_off begin;
@@ -9597,9 +9579,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_order_job *job) {
     }
     q->node[v].length = (sl_int)(q->end - q->node[v].begin);
   }
-  for (v = 0; v < q->total; v++) {
-    q->head[v] = -1;
-  }
+  SLI_NONE(q->head, q->total);
   for (v = 0; v < q->n; v++) {
     if (q->weight[v] != 0) {
       sli_quotient_enqueue(q, v);
@@ -9658,25 +9638,20 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
   sl_off at, begin, to;
   q->node[pivot].elements = SLI_QUOTIENT_PIVOT;
   q->weight[pivot] = -q->weight[pivot];
-  if (elements == 0) {
-    begin = q->node[pivot].begin;
-    to = sli_quotient_gather(q, begin, q->node[pivot].length, begin, &total);
-  } else {
-    if (q->room - q->end < q->n - q->pivots) {
-      sli_quotient_collect(q);
-    }
-    at = q->node[pivot].begin;
-    begin = to = q->end;
-    for (k = 0; k < elements; k++) {
-      const sl_int e = q->list[at + k];
-      SLI_ASSERT(q->mark[e] != 0);
-      to = sli_quotient_gather(q, q->node[e].begin, q->node[e].length, to, &total);
-      sli_quotient_absorb(q, e, pivot);
-    }
-    to = sli_quotient_gather(q, at + elements, q->node[pivot].length - elements, to, &total);
-    q->node[pivot].begin = begin;
-    q->end = to;
+  if (elements > 0 && q->room - q->end < q->n - q->pivots) {
+    sli_quotient_collect(q);
   }
+  at = q->node[pivot].begin;
+  begin = to = elements > 0 ? q->end : at;
+  for (k = 0; k < elements; k++) {
+    const sl_int e = q->list[at + k];
+    SLI_ASSERT(q->mark[e] != 0);
+    to = sli_quotient_gather(q, q->node[e].begin, q->node[e].length, to, &total);
+    sli_quotient_absorb(q, e, pivot);
+  }
+  to = sli_quotient_gather(q, at + elements, q->node[pivot].length - elements, to, &total);
+  q->end = elements > 0 ? to : q->end;
+  q->node[pivot].begin = begin;
   q->node[pivot].length = (sl_int)(to - begin);
   return total;
 }
@@ -9684,14 +9659,8 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
 static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
   const sl_int *front = q->list + q->node[pivot].begin;
   const sl_int size = q->node[pivot].length;
-  sl_int k, p, v, base;
-  if (q->base > INT32_MAX - 3 * (sl_off)q->total - 3) {
-    for (v = 0; v < q->n; v++) {
-      q->mark[v] = q->mark[v] != 0;
-    }
-    q->base = 2;
-  }
-  base = q->base;
+  const sl_int base = q->base;
+  sl_int k, p;
   for (k = 0; k < size; k++) {
     const sl_int weight = -q->weight[front[k]], count = q->node[front[k]].elements;
     const sl_int *elements = q->list + q->node[front[k]].begin;
@@ -9799,6 +9768,56 @@ static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
   }
 }
 
+SLI_INLINE int sli_quotient_is_far(sl_int degree, sl_int least) {
+  return degree >> 3 > least + 4;
+}
+
+static void sli_quotient_catch_up(sli_quotient *q, sl_int v) {
+  sli_quotient_node *p = &q->node[v];
+  sl_int *list = q->list + p->begin;
+  const sl_int most = q->live - q->rows - q->weight[v], length = p->length;
+  sl_int k, elements = 0, to = 0, degree = 0;
+  sl_off at, end;
+  q->mark[v] = q->base;
+  for (k = 0; k < length; k++) {
+    sl_int u = list[k];
+    const int is_pivot = q->node[u].elements == SLI_QUOTIENT_PIVOT;
+    while (is_pivot && q->node[u].into != -1) {
+      u = q->node[u].into;
+    }
+    if (q->weight[u] == 0 || q->mark[u] == q->base) {
+      continue;
+    }
+    q->mark[u] = q->base;
+    degree += is_pivot ? 0 : q->weight[u];
+    list[to++] = list[elements];
+    list[is_pivot ? elements++ : to - 1] = u;
+  }
+  p->length = to;
+  for (k = 0; k < elements && degree < most && !sli_quotient_is_far(degree, q->least); k++) {
+    at = q->node[list[k]].begin;
+    for (end = at + q->node[list[k]].length; at < end; at++) {
+      const sl_int u = q->list[at];
+      degree += q->mark[u] == q->base ? 0 : q->weight[u];
+      q->mark[u] = q->base;
+    }
+  }
+  q->base++;
+  p->elements = sli_quotient_is_far(degree, q->least) ? SLI_QUOTIENT_WAITS : elements;
+  p->degree = degree;
+  sli_quotient_enqueue(q, v);
+}
+
+static int sli_quotient_waits(sli_quotient *q, sl_int v, sl_int total, sl_int pivot) {
+  sli_quotient_node *p = &q->node[v];
+  if (p->elements == 0 && !sli_quotient_is_far(p->degree, total)) {
+    return 0;
+  }
+  p->elements = SLI_QUOTIENT_WAITS;
+  p->degree = sli_max(p->degree - total + pivot - q->weight[v], 0);
+  return 1;
+}
+
 static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   const sl_int total = sli_quotient_form(q, pivot), count = q->node[pivot].length;
   sl_int *front = q->list + q->node[pivot].begin;
@@ -9808,6 +9827,9 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   sli_quotient_overlaps(q, pivot);
   for (k = 0; k < count; k++) {
     const sl_int v = front[k];
+    if (q->node[v].elements <= 0 && sli_quotient_waits(q, v, total, q->weight[pivot])) {
+      continue;
+    }
     if (!sli_quotient_rewrite(q, v, pivot)) {
       left += q->weight[v];
       q->rows -= q->weight[v];
@@ -9817,7 +9839,7 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   q->widest = total > q->widest ? total : q->widest;
   q->base += q->widest + 1;
   for (k = 0; k < count; k++) {
-    if (q->weight[front[k]] != 0) {
+    if (q->node[front[k]].elements > 0) {
       const sl_int hash = q->node[front[k]].previous, first = q->bucket[hash];
       q->bucket[hash] = -1;
       sli_quotient_merge_chain(q, first);
@@ -9895,9 +9917,9 @@ typedef struct sli_order_cost {
 
 static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_cost *cost) {
   sl_int k;
+  SLI_CLEAR(*cost);
   cost->flops = 0.25 * q->flops;
   cost->widest = q->widest;
-  cost->entries = cost->paths = cost->fronts = cost->lists = 0.0;
   cost->pivots = q->pivots;
   SLI_ZERO(below, q->n);
   for (k = 0; k < q->pivots; k++) {
@@ -9938,9 +9960,19 @@ static sl_status sli_order_mindeg(const sli_order_job *job, sl_int *sizes, sli_o
     while (q.head[q.least] == -1) {
       q.least++;
     }
+    if (q.base > INT32_MAX - 3 * (sl_off)q.total - 3) {
+      for (pivot = 0; pivot < q.n; pivot++) {
+        q.mark[pivot] = q.mark[pivot] != 0;
+      }
+      q.base = 2;
+    }
     pivot = q.head[q.least];
     sli_quotient_dequeue(&q, pivot);
-    sli_quotient_eliminate(&q, pivot);
+    if (q.node[pivot].elements == SLI_QUOTIENT_WAITS) {
+      sli_quotient_catch_up(&q, pivot);
+    } else {
+      sli_quotient_eliminate(&q, pivot);
+    }
   }
   sli_quotient_cost(&q, q.head, cost);
   sli_quotient_write(&q, job->perm, sizes);
@@ -9976,8 +10008,7 @@ typedef struct sli_graph_facts {
 typedef enum sli_order_way {
   SLI_TRY_LEVELS,
   SLI_TRY_MINDEG,
-  SLI_BY_LEVELS,
-  SLI_BY_MINDEG,
+  SLI_BY_TRIED,
   SLI_BY_CUTS,
   SLI_BY_DISSECTION
 } sli_order_way;
@@ -9987,16 +10018,16 @@ static const struct sli_order_rule {
   sli_order_way way;
 } sli_order_rules[] = {
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_LEVELS, SLI_TRY_LEVELS},
-  {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_LEVELS},
+  {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_TRIED},
   {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
-  {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
-  {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
+  {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_TRIED},
+  {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_TRIED},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
-  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
-  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
-  {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_TRIED},
+  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_TRIED},
+  {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_TRIED},
   {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_LITTLE_FILL, 0, SLI_BY_CUTS},
   {0, 0, SLI_BY_DISSECTION}};
 
@@ -10028,9 +10059,7 @@ static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
   if (G->begin[G->n] <= 4 * (sl_off)G->n) {
     return 0;
   }
-  for (root = 0; root < G->n; root++) {
-    side[root] = -1;
-  }
+  SLI_NONE(side, G->n);
   for (root = 0, head = 0; root < G->n; root++) {
     if (side[root] == -1) {
       side[root] = 0;
@@ -10194,7 +10223,7 @@ SLI_INLINE sl_off sli_cuts_append(sli_cuts *c, sl_int s, sl_int k, sl_off end) {
 static void sli_cuts_fill(sli_cuts *c, const sli_graph *G) {
   sl_int *child = c->tree, *sibling = c->spare, s, t, k;
   sl_off end = 0, e;
-  memset(child, -1, (size_t)c->nodes * sizeof(sl_int));
+  SLI_NONE(child, c->nodes);
   for (s = 0; s < c->nodes; s++) {
     c->begin[s] = end;
     for (k = c->start[s]; k < c->start[s + 1]; k++) {
@@ -10371,11 +10400,6 @@ static sl_status sli_order_given(const sli_order_job *job) {
   return SL_OK;
 }
 
-static sl_status sli_order_quickly(const sli_order_job *job) {
-  sli_order_cost cost;
-  return sli_order_mindeg(job, job->scratch, &cost);
-}
-
 static sl_status sli_order_compressed(const sli_order_job *job,
     sl_status (*order)(const sli_order_job *)) {
   sli_order_job inner;
@@ -10398,8 +10422,12 @@ static sl_status sli_order_compressed(const sli_order_job *job,
 }
 
 static sl_status sli_order_chosen(const sli_order_job *job) {
-  sli_graph_facts f = sli_graph_describe(job);
+  sli_graph_facts f;
   sl_status status = SL_OK;
+  if (job->ordering == SL_ORDERING_MINDEG) {
+    return sli_order_mindeg(job, job->scratch, &f.cost);
+  }
+  f = sli_graph_describe(job);
   while (status == SL_OK) {
     switch (sli_order_choose(&f)) { /* branches untested: each has a case */
     case SLI_TRY_LEVELS:
@@ -10410,10 +10438,8 @@ static sl_status sli_order_chosen(const sli_order_job *job) {
       status = sli_order_mindeg(job, job->scratch, &f.cost);
       sli_graph_describe_mindeg(job, &f);
       break;
-    case SLI_BY_LEVELS:
+    case SLI_BY_TRIED:
       return SL_OK;
-    case SLI_BY_MINDEG:
-      return (f.bits & SLI_TRIED_MINDEG) != 0 ? SL_OK : sli_order_quickly(job);
     case SLI_BY_CUTS:
       return sli_order_cuts(job, job->scratch, f.cost.pivots, (sl_off)f.cost.lists);
     case SLI_BY_DISSECTION:
@@ -10423,30 +10449,16 @@ static sl_status sli_order_chosen(const sli_order_job *job) {
   return status;
 }
 
-static const struct sli_graph_ordering {
-  sl_ordering ordering;
-  int reduces;
-  sl_status (*order)(const sli_order_job *);
-} sli_graph_orderings[] = {{SL_ORDERING_ND, 1, sli_order_chosen},
-#if defined(SLI_METIS)
-               {SL_ORDERING_METIS, 0, sli_order_metis},
-#endif
-               {SL_ORDERING_MINDEG, 1, sli_order_quickly}};
-
-static const struct sli_graph_ordering *sli_graph_ordering_of(sl_ordering ordering) {
-  size_t k = 0;
-  while (sli_graph_orderings[k].ordering != ordering) {
-    k++;
-  }
-  return &sli_graph_orderings[k];
-}
-
 static sl_status sli_order_rest(const sli_order_job *job) {
-  const struct sli_graph_ordering *chosen = sli_graph_ordering_of(job->ordering);
   const sl_off n = job->G->n, mean = n > 0 ? job->G->begin[n] / n : 0;
-  return chosen->reduces && mean * mean <= n && sli_graph_is_irregular(job->G, job->is_peeled)
-         ? sli_order_compressed(job, chosen->order)
-         : chosen->order(job);
+#if defined(SLI_METIS)
+  if (job->ordering == SL_ORDERING_METIS) {
+    return sli_order_metis(job);
+  }
+#endif
+  return mean * mean <= n && sli_graph_is_irregular(job->G, job->is_peeled)
+         ? sli_order_compressed(job, sli_order_chosen)
+         : sli_order_chosen(job);
 }
 
 static sl_status sli_order_peeled(const sli_order_job *job) {
@@ -10491,7 +10503,6 @@ static void sli_order_expand(const sli_order_job *job) {
 }
 
 static sl_status sli_order_by_graph(sli_order_job *job) {
-  const int may_peel = sli_graph_ordering_of(job->ordering)->reduces;
   sli_graph G;
   sli_block b = {NULL, 0};
   sl_status status = SL_OK;
@@ -10508,8 +10519,9 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
   status = sli_graph_make_canonical(&G, job->a);
   job->G = &G;
   if (status == SL_OK) {
-    status =
-      may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_rest(job);
+    status = job->ordering != SL_ORDERING_METIS && sli_peel_is_worthwhile(&G)
+           ? sli_order_peeled(job)
+           : sli_order_rest(job);
   }
   if (status == SL_OK && job->block > 1) {
     sli_order_expand(job);
@@ -10550,10 +10562,7 @@ static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
 
 static sl_status sli_order(sli_order_job *job) {
   const sl_options *opt = job->opt;
-  const char *wrong;
-  job->septree->count = 0;
-  job->choice->has_tree = 0;
-  wrong = sli_order_options_wrong(opt, job->A->n_cols);
+  const char *wrong = sli_order_options_wrong(opt, job->A->n_cols);
   if (wrong != NULL) {
     return sli_order_refuse(job, SL_ERR_ARGUMENT, wrong);
   }
@@ -10561,9 +10570,7 @@ static sl_status sli_order(sli_order_job *job) {
   job->is_hurried = sli_order_is_hurried(opt);
   job->block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
   job->is_small = job->A->n_cols / job->block < SLI_DISSECT_SMALL;
-  job->is_peeled = 0;
   job->may_compress = 1;
-  job->weight = NULL;
   switch (job->ordering) {
   case SL_ORDERING_GIVEN:
     return sli_order_given(job);
@@ -10696,7 +10703,7 @@ static sli_merge sli_merge_start(const sli_tree_job *job) {
   m.from = (uint32_t *)(void *)(job->scratch + 3 * (size_t)job->n);
   m.waiting = job->scratch + 4 * (size_t)job->n;
   m.is_in_order = job->sequence == NULL;
-  memset(m.mark, 0xff, 2 * (size_t)job->n * sizeof(sl_int));
+  SLI_NONE(m.mark, 2 * (size_t)job->n);
   return m;
 }
 
@@ -10923,7 +10930,7 @@ typedef struct sli_amalgamation {
 
 static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *other) {
   sl_int k;
-  memset(other, 0xff, (size_t)n * sizeof(sl_int));
+  SLI_NONE(other, n);
   for (k = 0; k < n; k++) {
     if (parent[k] != -1 && parent[k] != k + 1) {
       other[parent[k]] = k;
@@ -11049,9 +11056,7 @@ SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl
 static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, uint64_t *list,
     uint64_t *scratch) {
   sl_int s, c, k, count;
-  for (s = 0; s < g->count; s++) {
-    child[s] = -1;
-  }
+  SLI_NONE(child, g->count);
   for (s = 0; s < g->count; s++) {
     const sl_int up = g->parent[s];
     sl_off cost;
@@ -11250,9 +11255,7 @@ static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent, const unsi
   sl_int *first = g->merged_into;
   const sl_int count = sli_find_parts(g, is_first, first, below, order);
   sl_int s, k, c, column = 0;
-  for (k = 0; k < n; k++) {
-    earlier[k] = -1;
-  }
+  SLI_NONE(earlier, n);
   if (count == g->count) {
     return 0;
   }
@@ -14644,7 +14647,7 @@ static sl_status sli_factor_prepare(sl_factor *F, int is_new) {
     F->scratch = b.base;
     F->stats.factor.bytes += b.used;
     if (F->history.marks != NULL) {
-      memset(F->history.marks, 0, (size_t)S->n_supers * sizeof(uint64_t));
+      SLI_ZERO(F->history.marks, S->n_supers);
     }
     F->null.has_duplicates = sli_skips_nulls(F) && sli_map_has_duplicates(S);
     if (has_fronts) {
@@ -23268,7 +23271,7 @@ static void sli_choice_init(sli_choice *c) {
   sli_reach_fill(S, c->seeds, c->count, c->steps, c->rows, &c->reach);
   SLI_ZERO(c->n_children, c->reach.count);
   SLI_ZERO(c->n_inside, c->reach.count);
-  memset(c->is_inside, 0, (size_t)c->reach.count);
+  SLI_ZERO(c->is_inside, c->reach.count);
   SLI_ZERO(c->needed, c->reach.columns);
   c->rows_begin[0] = 0;
   for (k = 0; k < c->reach.count; k++) {
@@ -24220,7 +24223,7 @@ static sl_status sli_loss_begin(sl_factor *F) {
     }
     h->bytes = b.used;
   }
-  memset(h->known, 0, (size_t)S->n_supers);
+  SLI_ZERO(h->known, S->n_supers);
   h->base = fmax(1.0, h->drift / DBL_EPSILON);
   return SL_OK;
 }
@@ -27418,7 +27421,7 @@ SLI_INLINE sl_int sli_subset_find(const sli_subset *R, sl_int column) {
 static void sli_subset_hash(sli_subset *R) {
   const uint64_t *list = R->list;
   sl_int k, w = -1;
-  memset(R->slots, 0xff, ((size_t)R->mask + 1) * sizeof(sl_int));
+  SLI_NONE(R->slots, (size_t)R->mask + 1);
   for (k = 0; k < R->count; k++) {
     const sl_int column = sli_key(list[k]), number = column / SLI_SUBSET_BITS;
     if (w == -1 || R->numbers[w] != number) {
@@ -27438,7 +27441,7 @@ SLI_HOT static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, co
   static const char sli_row_twice[] = "a row is given twice";
   sl_int k, rank = 0;
   if (!R->is_hashed) {
-    memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
+    SLI_ZERO(R->words, R->n_words);
   }
   for (k = 0; k < R->count; k++) {
     const sl_int row = rows[k];
@@ -27818,9 +27821,9 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
              : 0;
   }
   if (r->number_at != NULL) {
-    memset(r->number_at, 0xff, (size_t)r->S->n * sizeof(sl_int));
+    SLI_NONE(r->number_at, r->S->n);
   } else {
-    memset(r->bits, 0, ((size_t)r->bits_mask + 1) * sizeof(uint32_t));
+    SLI_ZERO(r->bits, (size_t)r->bits_mask + 1);
   }
   for (k = 0; k < r->R.count; k++) {
     const sl_int j = r->rows[k];
@@ -28155,9 +28158,7 @@ static sl_status sli_submatrix_check(const sl_factor *F, const sli_restriction *
 static void sli_submatrix_keep(const sl_factor *G, sli_restriction *r, sl_int *from,
     sl_int *columns) {
   sl_int q, k;
-  for (q = 0; q < G->S->n_supers; q++) {
-    from[q] = -1;
-  }
+  SLI_NONE(from, G->S->n_supers);
   for (q = 0; q < r->n_kept; q++) {
     const sl_int t = r->kept_new[q];
     from[t] = r->kept[q];
@@ -28420,9 +28421,7 @@ static void sli_edit_layout(sli_edit *e, sli_block *b) {
 static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl_int n,
     sl_int *column_of, sl_stats *stats) {
   sl_int j;
-  for (j = 0; j < n; j++) {
-    column_of[j] = -1;
-  }
+  SLI_NONE(column_of, n);
   for (j = 0; j < S->n; j++) {
     const sl_int row = new_of[j];
     if (row < -1 || row >= n || (row >= 0 && column_of[row] != -1)) {
@@ -28542,7 +28541,7 @@ static void sli_edit_match(sli_edit *e) {
     e->waiting[j] = SLI_EDIT_LAST;
     where[j] = 0;
   }
-  memset(e->is_matched, 0, (size_t)sli_nnz(B));
+  SLI_ZERO(e->is_matched, sli_nnz(B));
   for (j = 0; j < A->n_cols; j++) {
     sli_edit_match_ahead(e, j);
   }
@@ -29202,9 +29201,7 @@ static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges
   sl_off total;
   sl_status status = SL_OK;
   sl_int k;
-  for (k = 0; k < e->n; k++) {
-    e->number[k] = -1;
-  }
+  SLI_NONE(e->number, e->n);
   for (k = 0; k < count; k++) {
     e->number[e->fresh[k]] = k;
   }
@@ -29337,9 +29334,7 @@ static sl_status sli_edit_analyze_fresh(sli_edit *e, sli_restriction *r, sl_rela
     const sl_allocator *a, sl_stats *stats) {
   sl_status status;
   sl_int k;
-  for (k = 0; k < e->n; k++) {
-    e->number[k] = -1;
-  }
+  SLI_NONE(e->number, e->n);
   for (k = 0; k < e->n_fresh; k++) {
     e->number[e->fresh[k]] = k;
   }
@@ -33507,9 +33502,7 @@ static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl
 static void sli_scatter_list(const sl_symbolic *S, sli_scatter_work *w, sl_int s) {
   const sl_off start = S->scatter_begin[s];
   sl_int k, j, m, tile = sli_last_tile(S, s);
-  for (j = 0; j < S->steps[s].width; j++) {
-    w->head[j] = -1;
-  }
+  SLI_NONE(w->head, S->steps[s].width);
   for (m = (sl_int)(S->scatter_begin[s + 1] - start) - 1; m >= 0; m--) {
     sli_scatter_map_pivots(S, s, start + m, &tile, &k, &j);
     j -= S->super_first[s];
@@ -33537,9 +33530,7 @@ static sl_int sli_scatter_find(sli_scatter_work *w, sl_int j, sl_int head, sl_in
 
 static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
   sl_int s, j, missing = INT32_MAX;
-  for (j = 0; j < S->n; j++) {
-    w->index[j] = -1;
-  }
+  SLI_NONE(w->index, S->n);
   for (s = 0; s < S->n_supers; s++) {
     const sl_int first = S->super_first[s], last = S->super_first[s + 1];
     if (w->begin[first] < w->begin[last]) {
@@ -34612,6 +34603,7 @@ static const char *sli_singular_missing(const sl_options *opt) {
 #undef SLI_SPIN
 #undef SLI_ATOMIC
 #undef SLI_CLEAR
+#undef SLI_NONE
 #undef SLI_ZERO
 #undef SLI_COPY
 #undef SLI_ASSERT
