@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3aacd3175cfe9998
+ * FNV-1a of the lines after this comment, without the license: 6e0f4ab92b95a2e7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,24 +37,24 @@
  *   4963 impl/ matrix: sparse matrices of the caller and of the library
  *   5821 impl/ ordering: fill-reducing orderings of a graph
  *  10596 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12841 impl/ factor: the numbers of L and D
- *  15430 impl/ solve: full and local solves
- *  16942 impl/ singular: null spaces of semidefinite matrices
- *  18193 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20232 impl/ pivots: the order of the pivots by the values of a matrix
- *  20636 impl/ float: L in single precision
- *  20819 impl/ inverse: entries of the inverse, regions
- *  23721 impl/ change: a factor that follows changes of its matrix
- *  25991 impl/ constraints: rows held at values, on a factor that stays
- *  27342 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30054 impl/ fixed: rows fixed at given values
- *  30610 impl/ io: files that are replaced only when they are complete
- *  30829 impl/ files: Matrix Market files, 64-bit indices
- *  31385 impl/ save: factors in files
- *  33356 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34036 impl/ complex: complex Hermitian systems over real factors
- *  34504 impl/ packs: the tables through which the core calls packs
- *  34929 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12829 impl/ factor: the numbers of L and D
+ *  15418 impl/ solve: full and local solves
+ *  16930 impl/ singular: null spaces of semidefinite matrices
+ *  18181 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20220 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20624 impl/ float: L in single precision
+ *  20807 impl/ inverse: entries of the inverse, regions
+ *  23709 impl/ change: a factor that follows changes of its matrix
+ *  25979 impl/ constraints: rows held at values, on a factor that stays
+ *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30043 impl/ fixed: rows fixed at given values
+ *  30599 impl/ io: files that are replaced only when they are complete
+ *  30818 impl/ files: Matrix Market files, 64-bit indices
+ *  31374 impl/ save: factors in files
+ *  33345 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34025 impl/ complex: complex Hermitian systems over real factors
+ *  34493 impl/ packs: the tables through which the core calls packs
+ *  34918 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11929,17 +11929,13 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
   sli_plan_stacks(p, S, w->side, (sl_off *)(void *)w->flops, (sl_off *)(void *)w->path);
 }
 
-SLI_INLINE sl_int *sli_after(sl_int *array, sl_int count) {
-  return array == NULL ? NULL : array + count;
-}
-
 static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
   const sl_int tasks = p->workers == 1 ? 1 : count;
-  p->first = SLI_CUT(b, sl_int, 5 * (uint64_t)tasks);
-  p->last = sli_after(p->first, tasks);
-  p->worker = sli_after(p->last, tasks);
-  p->bundle_end = sli_after(p->worker, tasks);
-  p->top = sli_after(p->bundle_end, tasks);
+  p->first = SLI_CUT(b, sl_int, tasks);
+  p->last = SLI_CUT(b, sl_int, tasks);
+  p->worker = SLI_CUT(b, sl_int, tasks);
+  p->bundle_end = SLI_CUT(b, sl_int, tasks);
+  p->top = SLI_CUT(b, sl_int, p->workers == 1 ? 0 : count);
   p->stack_begin = SLI_CUT(b, sl_off, count);
   p->is_plain = SLI_CUT(b, unsigned char, count);
 }
@@ -11986,11 +11982,6 @@ SLI_NOINLINE static void sli_schedule_work_layout(sli_schedule_work *w, sli_bloc
 
 /* src/impl/analysis/symbolic_build.h: from an order of the rows to the analysis: tree, supernodes, all arrays */
 
-SLI_INLINE void sli_next_phase(sli_block *b, size_t begin, size_t *end) {
-  *end = b->used > *end ? b->used : *end;
-  b->used = begin;
-}
-
 SLI_NOINLINE static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows,
     sl_int nnz) {
   const uint64_t n = (uint64_t)rows;
@@ -12014,16 +12005,15 @@ SLI_NOINLINE static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_i
   w->amalgamation.parent = SLI_CUT(b, sl_int, rows);
   w->amalgamation.width = SLI_CUT(b, sl_int, rows);
   w->amalgamation.below = SLI_CUT(b, sl_int, rows);
-  begin = end = b->used;
+  begin = b->used;
   w->room = SLI_CUT(b, sl_int, SLI_ANALYSIS_ROOM(n) * (uint64_t)sli_max(w->workers, 1));
-  sli_next_phase(b, begin, &end);
+  end = b->used;
+  b->used = begin;
   w->amalgamation.zeros = SLI_CUT(b, sl_off, rows);
   w->amalgamation.cost = SLI_CUT(b, sl_off, rows);
   w->amalgamation.merged_into = SLI_CUT(b, sl_int, rows);
   w->amalgamation.apart = SLI_CUT(b, sl_int, rows);
   w->list = SLI_CUT(b, uint64_t, 2 * n);
-  sli_next_phase(b, begin, &end);
-  w->supers = SLI_CUT(b, sli_structure_super, rows);
   b->used = b->used > end ? b->used : end;
   if (w->pairs != NULL) {
     w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
@@ -12033,14 +12023,13 @@ SLI_NOINLINE static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_i
   w->spare = SLI_CUT(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
-static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries,
-    int shares) {
+static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
   const sl_int n = S->n, supers = S->n_supers;
   S->perm = SLI_CUT(b, sl_int, n);
   S->iperm = SLI_CUT(b, sl_int, n);
   S->parent = SLI_CUT(b, sl_int, n);
   S->counts = SLI_CUT(b, sl_int, n);
-  S->super_of = SLI_CUT(b, sl_int, shares ? 0 : n);
+  S->super_of = SLI_CUT(b, sl_int, n);
   S->super_first = SLI_CUT(b, sl_int, supers + 1);
   S->super_parent = SLI_CUT(b, sl_int, supers);
   S->rows_begin = SLI_CUT(b, sl_off, supers + 1);
@@ -12277,7 +12266,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   }
   SLI_LAYOUT(&b, &draft->allocator, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
-    sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a, draft->n_supers == w->n);
+    sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
     if (sli_is_mostly_plain(plain, draft->n_supers)) {
       draft->plain = SLI_CUT(&b, sl_int, draft->n_supers);
       if (draft->nnz_input > 0 && !w->amalgamation.is_for_one_factor) {
@@ -12289,7 +12278,6 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   if (status != SL_OK) {
     return status;
   }
-  draft->super_of = draft->n_supers == w->n ? draft->super_first : draft->super_of;
   sli_symbolic_fill(draft, w, stats);
   stats->symbolic.seconds_structure = sli_analysis_lap(w);
   stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
@@ -16453,8 +16441,8 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
   }
 }
 
-SLI_INLINE void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-    sl_int nrhs) {
+SLI_NOINLINE static void sli_sweep_forward(const sl_factor *F, const sli_query *q,
+    const sli_vectors *v, sl_int nrhs) {
   if (F->null.count > 0) {
     F->null.calls->forward(F, &q->forward, v, nrhs);
   } else {
@@ -27408,7 +27396,7 @@ SLI_INLINE sl_int *sli_subset_slot(const sli_subset *R, sl_int number) {
   return &R->slots[k];
 }
 
-SLI_INLINE sl_int sli_subset_find(const sli_subset *R, sl_int column) {
+SLI_NOINLINE static sl_int sli_subset_find(const sli_subset *R, sl_int column) {
   const sl_int number = column / SLI_SUBSET_BITS;
   const sl_int w = R->is_hashed ? *sli_subset_slot(R, number) : number;
   const uint64_t bit = (uint64_t)1 << (column % SLI_SUBSET_BITS);
@@ -27905,6 +27893,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
   if (status != SL_OK) {
     return status;
   }
+  w->supers = (sli_structure_super *)(void *)w->amalgamation.zeros;
   sli_fill_structure(w, T);
   return SL_OK;
 }
@@ -27933,7 +27922,7 @@ static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off ro
   sl_status status = SL_OK;
   SLI_LAYOUT(&b, &draft->allocator, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
-    sli_symbolic_layout(draft, &b, rows, entries, 0);
+    sli_symbolic_layout(draft, &b, rows, entries);
     stats->symbolic.bytes = b.used;
   }
   if (status == SL_OK) {
@@ -32832,7 +32821,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   sli_block b = {NULL, 0};
   sli_image m;
   sl_status status;
-  sli_symbolic_layout(S, &b, a->rows, a->entries, 0);
+  sli_symbolic_layout(S, &b, a->rows, a->entries);
   m.first = r->saved.first_array;
   m.last = r->saved.first_number;
   m.head = sizeof *S + (r->is_mapped ? 0 : (size_t)S->n_supers * sizeof(sl_int));
@@ -32846,7 +32835,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   }
   b.base = m.arrays;
   b.used = 0;
-  sli_symbolic_layout(S, &b, a->rows, a->entries, 0);
+  sli_symbolic_layout(S, &b, a->rows, a->entries);
   S->allocator = r->allocator;
   S->stats.symbolic.bytes = m.head + m.bytes;
   S->is_partial = r->saved.header.write_version > SLI_WRITE_VERSION;

@@ -177,18 +177,13 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, int plain,
     sli_plan_stacks(p, S, w->side, (sl_off *)(void *)w->flops, (sl_off *)(void *)w->path);
 }
 
-/* The next array; NULL while counting. */
-SLI_INLINE sl_int *sli_after(sl_int *array, sl_int count) {
-    return array == NULL ? NULL : array + count;
-}
-
 static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
     const sl_int tasks = p->workers == 1 ? 1 : count;
-    p->first = SLI_CUT(b, sl_int, 5 * (uint64_t)tasks); /* and the next four */
-    p->last = sli_after(p->first, tasks);
-    p->worker = sli_after(p->last, tasks);
-    p->bundle_end = sli_after(p->worker, tasks);
-    p->top = sli_after(p->bundle_end, tasks);
+    p->first = SLI_CUT(b, sl_int, tasks);
+    p->last = SLI_CUT(b, sl_int, tasks);
+    p->worker = SLI_CUT(b, sl_int, tasks);
+    p->bundle_end = SLI_CUT(b, sl_int, tasks);
+    p->top = SLI_CUT(b, sl_int, p->workers == 1 ? 0 : count);
     p->stack_begin = SLI_CUT(b, sl_off, count);
     p->is_plain = SLI_CUT(b, unsigned char, count);
 }

@@ -66,8 +66,7 @@ static const sl_int *sli_sort_siblings(const sli_amalgamation *g, const sl_int *
  * sequence: the columns in the caller's order; NULL: 0, 1, ... Sibling subtrees follow each other
  * by their last columns in the sequence, and the columns of a supernode keep its order. So a
  * sequence that is a postorder of the supernodes is kept as it is. is_postorder: the columns are
- * numbered in one, and then the supernodes are, too. scratch: 5n.
- */
+ * numbered in one. scratch: 5n. */
 static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, int is_postorder,
                                  sl_int *order, sl_int *scratch) {
     const sl_int n = g->n;

@@ -5,12 +5,6 @@
 #include "structure.h"
 #include "supernode_order.h"
 
-/* Arrays of the next phase are taken from `begin` on. end: where the largest one ends. */
-SLI_INLINE void sli_next_phase(sli_block *b, size_t begin, size_t *end) {
-    *end = b->used > *end ? b->used : *end;
-    b->used = begin;
-}
-
 /* What the ordering fills comes first. Then follows memory that the ordering may use until it is
  * done: a graph and a quotient graph need some 64 n + 18 nnz bytes. */
 SLI_NOINLINE static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows,
@@ -36,16 +30,15 @@ SLI_NOINLINE static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_i
     w->amalgamation.parent = SLI_CUT(b, sl_int, rows);
     w->amalgamation.width = SLI_CUT(b, sl_int, rows);
     w->amalgamation.below = SLI_CUT(b, sl_int, rows);
-    begin = end = b->used; /* three phases use the same memory, one after the other */
+    begin = b->used; /* two phases use the same memory in turn */
     w->room = SLI_CUT(b, sl_int, SLI_ANALYSIS_ROOM(n) * (uint64_t)sli_max(w->workers, 1));
-    sli_next_phase(b, begin, &end);
+    end = b->used;
+    b->used = begin;
     w->amalgamation.zeros = SLI_CUT(b, sl_off, rows);
     w->amalgamation.cost = SLI_CUT(b, sl_off, rows);
     w->amalgamation.merged_into = SLI_CUT(b, sl_int, rows);
     w->amalgamation.apart = SLI_CUT(b, sl_int, rows);
     w->list = SLI_CUT(b, uint64_t, 2 * n);
-    sli_next_phase(b, begin, &end);
-    w->supers = SLI_CUT(b, sli_structure_super, rows);
     b->used = b->used > end ? b->used : end;
     if (w->pairs != NULL) {
         w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
@@ -55,16 +48,14 @@ SLI_NOINLINE static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_i
     w->spare = SLI_CUT(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
-/* All arrays. A saved analysis has them in this order (save/format.h). shares: each column is a
- * supernode, so that super_of is super_first. */
-static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries,
-                                int shares) {
+/* All arrays. A saved analysis has them in this order (save/format.h). */
+static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
     const sl_int n = S->n, supers = S->n_supers;
     S->perm = SLI_CUT(b, sl_int, n);
     S->iperm = SLI_CUT(b, sl_int, n);
     S->parent = SLI_CUT(b, sl_int, n);
     S->counts = SLI_CUT(b, sl_int, n);
-    S->super_of = SLI_CUT(b, sl_int, shares ? 0 : n);
+    S->super_of = SLI_CUT(b, sl_int, n);
     S->super_first = SLI_CUT(b, sl_int, supers + 1);
     S->super_parent = SLI_CUT(b, sl_int, supers);
     S->rows_begin = SLI_CUT(b, sl_off, supers + 1);
@@ -314,7 +305,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     }
     SLI_LAYOUT(&b, &draft->allocator, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
-        sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a, draft->n_supers == w->n);
+        sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
         if (sli_is_mostly_plain(plain, draft->n_supers)) {
             draft->plain = SLI_CUT(&b, sl_int, draft->n_supers);
             if (draft->nnz_input > 0 && !w->amalgamation.is_for_one_factor) {
@@ -326,7 +317,6 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     if (status != SL_OK) {
         return status;
     }
-    draft->super_of = draft->n_supers == w->n ? draft->super_first : draft->super_of;
     sli_symbolic_fill(draft, w, stats);
     stats->symbolic.seconds_structure = sli_analysis_lap(w);
     stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;

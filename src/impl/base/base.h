@@ -166,10 +166,9 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_HOT __attribute__((unused, noinline, hot)) /* loops that cold functions call */
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
-/* A function that begins at a cache line, because its place changed the time of a call by 5 to 35
- * percent. Compilers align functions to 16 bytes: what is before one decides where its loops lie,
- * and on Zen 5 some are slow that begin in the second half of a line and end in the next one. An
- * alignment costs 24 bytes on average; functions that win less than 3 percent have none. */
+/* A function that begins at a cache line. Compilers align to 16 bytes: what is before a function
+ * decides where its loops lie, which changed the time of a call by 5 to 35 percent. It costs 24
+ * bytes on average; functions that win less than 3 percent have none. */
 #define SLI_AT_LINE __attribute__((aligned(64)))
 /* Prefetches the cache line `bytes` after p. The line need not exist: prefetching an invalid
  * address has no effect. */

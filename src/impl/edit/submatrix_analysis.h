@@ -243,6 +243,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     if (status != SL_OK) {
         return status;
     }
+    w->supers = (sli_structure_super *)(void *)w->amalgamation.zeros; /* of 40 n bytes */
     sli_fill_structure(w, T);
     return SL_OK;
 }

@@ -18,7 +18,7 @@ static sl_status sli_joint_room(sl_symbolic **out, sl_symbolic *draft, sl_off ro
     sl_status status = SL_OK;
     SLI_LAYOUT(&b, &draft->allocator, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
-        sli_symbolic_layout(draft, &b, rows, entries, 0);
+        sli_symbolic_layout(draft, &b, rows, entries);
         stats->symbolic.bytes = b.used;
     }
     if (status == SL_OK) {

@@ -82,7 +82,7 @@ SLI_INLINE sl_int *sli_subset_slot(const sli_subset *R, sl_int number) {
 }
 
 /* The rank of a column, or -1. */
-SLI_INLINE sl_int sli_subset_find(const sli_subset *R, sl_int column) {
+SLI_NOINLINE static sl_int sli_subset_find(const sli_subset *R, sl_int column) {
     const sl_int number = column / SLI_SUBSET_BITS;
     const sl_int w = R->is_hashed ? *sli_subset_slot(R, number) : number;
     const uint64_t bit = (uint64_t)1 << (column % SLI_SUBSET_BITS);

@@ -7,8 +7,7 @@
 
 /* A factorization is one parallel call. Its tasks are bundles of subtrees, and the fronts above
  * them: small fronts as a whole, large ones in pieces. A worker draws a task that waits for nothing
- * but finished ones. If there is none, others are at work, and it waits for one of them. So a
- * worker alone does everything, whether the others start late or never.
+ * but finished ones. If there is none, others are at work, and it waits for one of them.
  *
  * A piece is a range of row tiles of a large front, one group of pivots or some rows below. Its
  * steps follow one another:

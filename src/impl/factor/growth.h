@@ -15,9 +15,8 @@
  * stayed below 1.5 epsilon times the growth.
  *
  * The limit. Three refinements brought every quasi-definite system with a growth below 1e14 to a
- * backward error below 1e-10, 88 % of those from 1e14 to 1e15, and 60 % of those above; systems
- * that stayed above 1e-8 among these had a growth above 2e15. So the factorization refuses only
- * where L D L' may have no digit of A, and leaves the rest to refinement, which measures. */
+ * backward error below 1e-10, and all up to 2e15 below 1e-8. So the factorization refuses only
+ * where L D L' may have no digit of A. */
 #define SLI_GROWTH_LIMIT (1.0 / DBL_EPSILON)
 #define SLI_GROWTH_LIMIT_FLOAT (1.0 / (double)FLT_EPSILON) /* where L is rounded to float */
 

@@ -19,11 +19,10 @@
  * the first term for errors of random sign, the second one for errors of one sign: those of meshes
  * with equal weights, and, by c, of large fronts of equal numbers, which round alike. A pivot
  * within it is null: with a unit diagonal, A is singular up to rounding. The last pivots of
- * singular Laplacians were at most 0.61 of the estimate, in complete bipartite graphs of 100 rows;
- * 0.3 in other dense ones; 0.1 in paths, stars, trees, rings, and grids in 2D and 3D, of 10 to 1e5
- * rows, in three orders. Those of smoothing with t = 1e15 and 1e4 to 1e6
- * rows are above the estimate, and accurate. Beyond 200 rows of equal weights, dense singular
- * matrices may have last pivots above the tolerance, which nothing judges. */
+ * singular Laplacians were at most 0.61 of the estimate, in complete bipartite graphs; 0.1 in
+ * sparse ones of 10 to 1e5 rows. Those of smoothing with t = 1e15 are above it, and accurate.
+ * Beyond 200 rows of equal weights, dense singular matrices may have last pivots above the
+ * tolerance, which nothing judges. */
 #define SLI_JUDGE_RANDOM 6.0
 #define SLI_JUDGE_BIASED 0.1
 #define SLI_JUDGE_ALIKE 3.0 /* of c */

@@ -5,8 +5,8 @@
 #include "../analysis/symbolic_types.h"
 #include "../base/status.h"
 
-/* Of a matrix that stores both triangles one is read. If the other one is not the same, the caller
- * has not a symmetric matrix, such as M^-1 L for a Laplacian L, and no solution would be his.
+/* Of a matrix that stores both triangles one is read. If the other one is not the same, the matrix
+ * is not symmetric, as M^-1 L for a Laplacian L.
  *
  * For weights x, A x and A' x are compared, which takes one pass in any order of the entries, with
  * duplicates. Weights are between 1 and 2 and look random, so that differences do not cancel.

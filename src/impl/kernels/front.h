@@ -65,7 +65,7 @@ typedef struct sli_front {
  * their magnitudes on the diagonal. At the end the panel holds L, D holds the pivots, and L D L' is
  * subtracted from update. In the rows of the panel magnitude is that of the pivot; in the others it
  * has grown by |L D L'| on the diagonal. Every row tile is computed independently of the others, so
- * row tiles may be distributed over threads. The caller looks for null pivots.
+ * they may be distributed over threads.
  *
  * Rows, columns and tiles of a front of a complex matrix are those of its real one. The magnitude
  * of a pair of rows is the sum of two numbers, except in rows of the panel. */

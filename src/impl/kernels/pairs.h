@@ -22,8 +22,7 @@ SLI_INLINE int sli_tile_has_pairs(const sli_front *f, sl_int c) {
 
 /* How [a e; e b] (l, m)' = (x, y)' is solved: one elimination step. Its pivot is e, which swaps the
  * equations, if |a b| <= e^2, and a otherwise. Then the product that is subtracted from the other
- * entry is not larger than that entry, and the residual is within rounding of |D| |l|. An explicit
- * inverse would multiply it by the condition of the block. */
+ * entry is not larger than that entry, and the residual is within rounding of |D| |l|. */
 typedef struct sli_pair_steps {
     int is_swapped;     /* y belongs to the first equation */
     double factor;      /* of the first equation, subtracted from the second */

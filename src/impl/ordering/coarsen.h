@@ -242,9 +242,9 @@ typedef struct sli_coarsening {
 } sli_coarsening;
 
 /* Makes the next coarser level: of the finest, of balls, or of neighborhoods, as heavy as the
- * heaviest pair, which replace two levels of pairs, or in a wide graph three or four, each of which
- * reads and contracts most of the edges again; of others, or where clusters are small, of pairs.
- * *shrunk := whether the level is small enough to be used; c is empty if not. */
+ * heaviest pair, which replace two levels of pairs, or in a wide graph three or four; of others, or
+ * where clusters are small, of pairs. *shrunk := whether the level is small enough to be used; c is
+ * empty if not. */
 static sl_status sli_coarsen(sli_coarsening *t, const sli_level *g, sli_level *c, int *shrunk) {
     sl_int pairs, count = g->n;
     memset(c, 0, sizeof *c);

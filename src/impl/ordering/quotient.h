@@ -31,7 +31,7 @@ typedef struct sli_quotient_node {
  * that the graph stays within its first size, plus one front that is being formed. [ADD96]
  *
  * A variable of far more neighbors than the pivot waits: its degree is a lower bound, its list not
- * updated. That takes 9/10 of the time where many constraints share few variables. */
+ * updated. Where many constraints share few variables, updates took 9/10 of the time. */
 typedef struct sli_quotient {
     sl_int n, total;         /* vertices of the graph, and the rows that they stand for */
     sl_off end, room;        /* of list: positions used, and available */

@@ -208,10 +208,10 @@ SLI_ALWAYS_INLINE int sli_subgraph_neighbors(sli_subgraph *sub, const sli_labell
 }
 
 /* Builds the edges of vertex k of a band for a search from the left to the right, without weights:
- * those towards the right come first, those towards the left last, as straight paths leave the most
- * room for others. found: its `degree` neighbors, and room for three times as many and four. Those
- * below `first` are in a layer nearer to the border, those from `last` on in one farther from it;
- * with first = 0, at the border, those on the other side are nearer. */
+ * those towards the right come first, those towards the left last. found: its `degree` neighbors,
+ * and room for three times as many and four. Those below `first` are in a layer nearer to the
+ * border, those from `last` on in one farther from it; with first = 0, at the border, those on the
+ * other side are nearer. */
 SLI_ALWAYS_INLINE void sli_subgraph_arcs(sli_subgraph *sub, sl_int k, sl_int first, sl_int last,
                                          sl_int *found, sl_int degree) {
     const int own = sub->side[k];

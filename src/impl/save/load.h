@@ -240,7 +240,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     sli_block b = {NULL, 0};
     sli_image m;
     sl_status status;
-    sli_symbolic_layout(S, &b, a->rows, a->entries, 0);
+    sli_symbolic_layout(S, &b, a->rows, a->entries);
     m.first = r->saved.first_array;
     m.last = r->saved.first_number;
     m.head = sizeof *S + (r->is_mapped ? 0 : (size_t)S->n_supers * sizeof(sl_int));
@@ -254,7 +254,7 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     }
     b.base = m.arrays;
     b.used = 0;
-    sli_symbolic_layout(S, &b, a->rows, a->entries, 0);
+    sli_symbolic_layout(S, &b, a->rows, a->entries);
     S->allocator = r->allocator;
     S->stats.symbolic.bytes = m.head + m.bytes;
     S->is_partial = r->saved.header.write_version > SLI_WRITE_VERSION;

@@ -14,8 +14,7 @@
  * Anchors must be far apart, or the matrix without them is ill-conditioned: a body that is held by
  * two neighboring points hardly resists a rotation. So they are chosen by threshold pivoting on an
  * orthonormal basis of Z: an anchor is the last row, in elimination order, whose
- * distance from the span of the anchors before it is at least 0.3 of the largest one. Of these rows
- * the last one is in the reach of most local solves.
+ * distance from the span of the anchors before it is at least 0.3 of the largest one.
  *
  * Not all columns need to hold: a body with a fixed point can still rotate about it. Each row i of
  * A Z that is not rounding error rules out one combination of the columns; the null vectors are the

@@ -13,10 +13,8 @@
  * other pivot of C is null.
  *
  * A z = 0 is tested row by row with a bound on the rounding errors of the entries and of the
- * product, |A z|_i <= 16 n_i epsilon (|A| |z|)_i, where row i has n_i entries [Hi02] 3.1. A
- * diagonal that is the sum of n_i - 1 weights needs n_i epsilon / 2 for itself and as much for the
- * product. The factor 16 is for entries that are themselves sums with cancellation, such as
- * cotangent weights.
+ * product, |A z|_i <= 16 n_i epsilon (|A| |z|)_i, where row i has n_i entries [Hi02] 3.1. The
+ * factor 16 is for entries that are sums with cancellation, such as cotangent weights.
  *
  * Components are those of the graph of nonzero values, so that explicit zeros separate, and so do
  * duplicates that cancel. */

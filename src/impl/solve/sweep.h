@@ -19,8 +19,8 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
 
 /* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. Where
  * components have several of them, their y(k) has no meaning. */
-SLI_INLINE void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                                  sl_int nrhs) {
+SLI_NOINLINE static void sli_sweep_forward(const sl_factor *F, const sli_query *q,
+                                           const sli_vectors *v, sl_int nrhs) {
     if (F->null.count > 0) {
         F->null.calls->forward(F, &q->forward, v, nrhs);
     } else {

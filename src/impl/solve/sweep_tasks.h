@@ -9,7 +9,7 @@
 /* The least work of a worker, and the least gain of all for one right-hand side, in entries of L,
  * of which a solve reads 5 to 10 in a ns. For each 16 right-hand sides the gain has to be as large
  * once more. Starting a worker takes as long as 1e5 entries and more. What a subtree passes up
- * costs as much as SLI_SOLVE_SLOT entries for each number. Fitted to 2 workers on grids. */
+ * costs as much as SLI_SOLVE_SLOT entries for each number. */
 #if defined(SLI_SMALL_TASKS)
 #define SLI_SOLVE_ENTRIES 1
 #define SLI_SOLVE_GAIN (-1e30)

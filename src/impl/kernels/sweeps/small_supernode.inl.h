@@ -3,7 +3,7 @@
 /* Most supernodes of a 2D mesh are this small. They do not spend their time reading L but on loops
  * of few iterations, on calls, and on vector loads of values that were just stored one by one. Here
  * there are no loops over columns: y or the sums of all columns stay in registers, and x is
- * gathered directly into registers. Branches on the width take the time of a copy for each. */
+ * gathered directly into registers. */
 
 #if !defined(SLV_PLAIN)
 /* Is k a column? The supernode has at least two. */

@@ -2,9 +2,8 @@
 
 #define SLV_NAME(f) sli_##f##_avx512
 /* Kernels of AVX2 do the same operations. 4 right-hand sides are one 256-bit register. One in
- * supernodes of at most 8 columns gains nothing from longer ones: with AVX-512 here, solves with
- * 400 to 3600 unknowns took 1.03 to 1.08 of the time. The columns of a tile of pivots wait for each
- * other's divisions, and a longer register divides half as fast. */
+ * supernodes of at most 8 columns gains nothing from longer ones. The columns of a tile of pivots
+ * wait for each other's divisions, and a longer register divides half as fast. */
 #define SLV_NAME_SHORT(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_WIDTH 8
