@@ -282,10 +282,10 @@ void regions() {
     Sparse twice = 2 * A;
     ours.factorize(twice);
     CHECK(all_nan(ours.solve(plan, B)) && ours.status() == SL_ERR_STALE);
-    CHECK(ours.update(region) && close(ours.solve(plan, B), 0.5 * x, 1e-13));
+    CHECK(ours.refactor(region) && close(ours.solve(plan, B), 0.5 * x, 1e-13));
     region = sl::LocalRegion();
     CHECK(close(ours.solve(plan, B), 0.5 * x, 1e-13));
-    CHECK(!ours.update(region) && ours.info() == Eigen::InvalidInput);
+    CHECK(!ours.refactor(region) && ours.info() == Eigen::InvalidInput);
 }
 
 void inverse_diagonal() {

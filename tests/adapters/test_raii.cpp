@@ -96,11 +96,11 @@ void local_solves() {
     b[17] = 2;
     b[100] = -1;
     CHECK(f.made && f.F.solve(full, b).ok());
-    CHECK(f.F.solve_local(part, {17, 100}, {2.0, -1.0}, {5, 143, 5}).ok());
+    CHECK(f.F.local_solve(part, {17, 100}, {2.0, -1.0}, {5, 143, 5}).ok());
     CHECK(part.size() == 3 && part[0] == full[5] && part[1] == full[143] && part[2] == full[5]);
-    CHECK(f.F.solve_local(part, {17, 100}, {2.0, -1.0}, sl::Rows::all()).ok() && part == full);
-    CHECK(f.F.solve_local(part, {}, {}, {5}).ok() && part == std::vector<double>(1, 0.0));
-    CHECK(f.F.solve_local(part, {17}, {1.0}, {}).ok() && part.empty());
+    CHECK(f.F.local_solve(part, {17, 100}, {2.0, -1.0}, sl::Rows::all()).ok() && part == full);
+    CHECK(f.F.local_solve(part, {}, {}, {5}).ok() && part == std::vector<double>(1, 0.0));
+    CHECK(f.F.local_solve(part, {17}, {1.0}, {}).ok() && part.empty());
 }
 
 void plans() {
@@ -158,7 +158,7 @@ void regions() {
     std::vector<double> x, full;
     CHECK(f.made && R.create(f.F, {100, 101, 120, 121}).ok() && R.info().rows >= 4);
     CHECK(P.create(f.S, {100}, {121}, &R).ok() && P.info().in_region == 1);
-    CHECK(f.F.solve_local(full, {100}, {1.0}, {121}).ok() && P.solve(x, f.F, {1.0}).ok());
+    CHECK(f.F.local_solve(full, {100}, {1.0}, {121}).ok() && P.solve(x, f.F, {1.0}).ok());
     CHECK(std::fabs(x[0] - full[0]) < 1e-14);
     CHECK(f.F.refactor(f.grid.view()).ok());
     CHECK(fails(SL_ERR_STALE, -1, [&] { return P.solve(x, f.F, {1.0}); }));
@@ -188,7 +188,7 @@ void inverse() {
     std::vector<double> diagonal, column, all;
     double log_det = 0, sign = 0, rcond = 0;
     CHECK(f.made && f.F.inverse_diagonal(diagonal, {7}).ok());
-    CHECK(f.F.solve_local(column, {7}, {1.0}, {7}).ok());
+    CHECK(f.F.local_solve(column, {7}, {1.0}, {7}).ok());
     CHECK(std::fabs(column[0] - diagonal[0]) < 1e-14);
     CHECK(f.F.inverse_diagonal(all, sl::Rows::all()).ok() && all.size() == 25);
     CHECK(f.F.logdet(log_det, sign).ok() && sign == 1 && std::isfinite(log_det));
@@ -248,8 +248,8 @@ void wrong_arguments() {
     CHECK(f.made);
     CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return f.F.solve(x, {1.0, 2.0}); }));
     CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return f.F.solve(x, some_numbers(144), -1); }));
-    CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return f.F.solve_local(x, {1}, {1.0, 2.0}, {2}); }));
-    CHECK(fails(SL_ERR_ARGUMENT, 144, [&] { return f.F.solve_local(x, {144}, {1.0}, {2}); }));
+    CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return f.F.local_solve(x, {1}, {1.0, 2.0}, {2}); }));
+    CHECK(fails(SL_ERR_ARGUMENT, 144, [&] { return f.F.local_solve(x, {144}, {1.0}, {2}); }));
     CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return P.create(S, {0}, {0}); }));
     CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return empty.create(S, f.grid.view()); }));
     CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return P.solve(x, f.F, {}); }));

@@ -3,7 +3,7 @@ import load, {Analysis, Factor, HeapArray, Matrix, Constraints, Plan, SparseLoca
 
 async function use(bytes: ArrayBuffer): Promise<number> {
     const sl: SparseLocal = await load(bytes);
-    const A: Matrix = sl.matrix(2, [0, 1], Int32Array.of(0, 1), [1, 2]);
+    const A: Matrix = sl.fromTriplets(2, [0, 1], Int32Array.of(0, 1), [1, 2]);
     const S: Analysis = sl.analyze({n: 2, p: A.p, i: A.i}, {ordering: "natural", triangle: "lower"});
     const F: Factor = S.factor(A, {definite: true, nullPivots: "refuse"});
     const b: HeapArray<Float64Array> = sl.float64(2), rows: HeapArray<Int32Array> = sl.int32(1);
@@ -12,7 +12,7 @@ async function use(bytes: ArrayBuffer): Promise<number> {
     const P: Plan = F.plan(rows, null), Q: Constraints = F.constraints([0]);
     P.solve([1], b, F);
     Q.add([1]).release([0]).refactor();
-    F.refactor(A).update({p: [0, 1], i: [0], x: [1]}, null).updateEntries([0], [0], [1]);
+    F.refactor(A).rankUpdate({p: [0, 1], i: [0], x: [1]}, null).changeEntries([0], [0], [1]);
     const y: Float64Array = Q.solve([1], {plan: P}), growth: number = F.stats.growth;
     try {
         F.localSolve([0], [1], [1]);

@@ -362,7 +362,8 @@ public:
         sl_status status = sl_factor_refactor(get(), &A, &stats);
         return finish(Status(status, stats));
     }
-    SL_RESULT change_columns(const sl_csc &A, const Rows &columns) {
+    /** Changes by columns of A: the columns of L that they reach are computed again. */
+    SL_RESULT change_entries(const sl_csc &A, const Rows &columns) {
         sl_stats stats;
         sl_status status =
             sl_factor_change_entries(get(), &A, nullptr, columns.data(), nullptr,
@@ -383,7 +384,7 @@ public:
         return solve(data_of(x), rows, data_of(b), rows, nrhs, work);
     }
     /** A local solve without a plan: b on bset, x wanted on xset; x may be b. */
-    SL_RESULT solve_local(std::vector<double> &x, const Rows &bset, const std::vector<double> &b,
+    SL_RESULT local_solve(std::vector<double> &x, const Rows &bset, const std::vector<double> &b,
                           const Rows &xset, sl_int nrhs = 1, Work *work = nullptr) const {
         std::size_t nb = std::size_t(bset.count(n())), nx = std::size_t(xset.count(n()));
         std::vector<double> result;

@@ -691,7 +691,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         out.nx_ = xset.size(n_);
         return out;
     }
-    /** The region of a set of rows. After another factorization call update(region). */
+    /** The region of a set of rows. After another factorization call refactor(region). */
     LocalRegion region(const RowSet &set) const {
         LocalRegion out;
         sl_region *made = nullptr;
@@ -704,7 +704,7 @@ template <class Solver> class BasicSolver : public Eigen::SparseSolverBase<Solve
         return out;
     }
     /** Computes a region again from the present unit; its plans stay valid. */
-    bool update(LocalRegion &region) const {
+    bool refactor(LocalRegion &region) const {
         internal::LentWork work(work_);
         sl_status status = sl_region_refactor(region.get(), factor_.get(), nullptr, work.get());
         set_status(status);

@@ -91,8 +91,8 @@ static sl_status logdet(call *c) {
     return sl_factor_logdet(f->factor, logarithm, sign);
 }
 
-/* [L, d, e, perm] = parts(factor): d and e are the diagonal of D and what is below it */
-static sl_status parts(call *c) {
+/* [L, d, e, perm] = factors(factor): d and e are the diagonal of D and what is below it */
+static sl_status factors(call *c) {
     object *f = find(c->in[0], FACTOR);
     const sl_factor_arrays F = sl_factor_view(f->factor);
     const sl_symbolic_arrays S = sl_symbolic_view(f->symbolic);
@@ -156,8 +156,8 @@ static sl_status info(call *c) {
 
 /* ---- changes ---- */
 
-/* update(factor, V, sigma) */
-static sl_status update(call *c) {
+/* rank_update(factor, V, sigma) */
+static sl_status rank_update(call *c) {
     object *f = find(c->in[0], FACTOR);
     sl_int columns;
     const double *sigma = dense(c->in[2], "sigma", count_of(mxGetN(c->in[1])), &columns);
@@ -169,8 +169,8 @@ static sl_status update(call *c) {
     return status;
 }
 
-/* change(factor, A, rows, columns, deltas) */
-static sl_status change(call *c) {
+/* change_entries(factor, A, rows, columns, deltas) */
+static sl_status change_entries(call *c) {
     object *f = find(c->in[0], FACTOR);
     sl_int count, one, *rows, *columns;
     const double *deltas;

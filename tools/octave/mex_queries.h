@@ -48,8 +48,8 @@ static sl_status diagonal(call *c) {
     return sl_inverse_diagonal(f->factor, d, rows, count, f->work, NULL);
 }
 
-/* z = entries(factor, rows, columns) */
-static sl_status entries(call *c) {
+/* z = pairs(factor, rows, columns) */
+static sl_status pairs(call *c) {
     object *f = find(c->in[0], FACTOR);
     sl_int count, *rows, *columns;
     double *z;

@@ -26,17 +26,18 @@ classdef sparse_local < handle
 %     r = F.rcond(A)           estimate of the reciprocal condition number
 %   Entries of the inverse Z
 %     d = F.diagonal(I)        Z(i, i) for i in I; F.diagonal(): all
-%     z = F.entries(I, J)      Z(I(k), J(k))
+%     z = F.pairs(I, J)        Z(I(k), J(k))
 %     Z = F.block(I, J)        Z(I, J)
 %   The factor
 %     [l, s] = F.logdet()      log(abs(det(A))) and the sign of det(A)
-%     [L, D, p] = F.parts()    A(p, p) = L * D * L'
+%     [L, D, p] = F.factors()  A(p, p) = L * D * L'
 %     s = F.info()             a struct: n, nnz_l, positive, negative, null, growth, ...
 %   Other numbers
 %     F.refactor(A)            new values in the same pattern; plans stay valid
-%     F.update(V), F.update(V, sigma)   A + V * diag(sigma) * V'; rows of a column of V are a clique
+%     F.rank_update(V, sigma)  A + V * diag(sigma) * V'; sigma is 1 if not given. The rows of a
+%                              column of V are a clique
 %     F.downdate(V)            A - V * V'
-%     F.change(B, A)           from the factor of A to that of B, in the cheapest way
+%     F.change_entries(B, A)   from the factor of A to that of B, in the cheapest way
 %   Rows held at values
 %     P = F.constraints(I)     x = P.solve(b, values); see sparse_local_constraints
 %   F.close() releases the memory; so does clearing the last variable that refers to F.
@@ -118,9 +119,9 @@ classdef sparse_local < handle
             d = sparse_local_mex('diagonal', this.id, this.rows(list));
         end
 
-        function z = entries(this, rows, columns)
-            % z = F.entries(I, J): entries (I(k), J(k)) of the inverse.
-            z = sparse_local_mex('entries', this.id, this.rows(rows), this.rows(columns));
+        function z = pairs(this, rows, columns)
+            % z = F.pairs(I, J): entries (I(k), J(k)) of the inverse.
+            z = sparse_local_mex('pairs', this.id, this.rows(rows), this.rows(columns));
         end
 
         function Z = block(this, rows, columns)
@@ -133,9 +134,9 @@ classdef sparse_local < handle
             [l, s] = sparse_local_mex('logdet', this.id);
         end
 
-        function [L, D, p] = parts(this)
-            % [L, D, p] = F.parts(): A(p, p) = L * D * L'.
-            [L, d, e, p] = sparse_local_mex('parts', this.id);
+        function [L, D, p] = factors(this)
+            % [L, D, p] = F.factors(): A(p, p) = L * D * L'.
+            [L, d, e, p] = sparse_local_mex('factors', this.id);
             D = spdiags([e, d, [0; e(1:end - 1)]], -1:1, this.n, this.n);
         end
 
@@ -149,22 +150,22 @@ classdef sparse_local < handle
             sparse_local_mex('refactor', this.id, double(A));
         end
 
-        function update(this, V, sigma)
-            % F.update(V, sigma): the factor of A + V * diag(sigma) * V'; without sigma A + V * V'.
+        function rank_update(this, V, sigma)
+            % F.rank_update(V, sigma): the factor of A + V * diag(sigma) * V'; sigma is 1 if not given.
             V = sparse(double(V));
             if nargin < 3, sigma = ones(size(V, 2), 1); end
-            sparse_local_mex('update', this.id, V, double(sigma(:)));
+            sparse_local_mex('rank_update', this.id, V, double(sigma(:)));
         end
 
         function downdate(this, V)
             % F.downdate(V): the factor of A - V * V'.
-            this.update(V, -ones(size(V, 2), 1));
+            this.rank_update(V, -ones(size(V, 2), 1));
         end
 
-        function change(this, B, A)
-            % F.change(B, A): from the factor of A to that of B, in the cheapest way.
+        function change_entries(this, B, A)
+            % F.change_entries(B, A): from the factor of A to that of B, in the cheapest way.
             [i, j, d] = find(tril(B - A));
-            sparse_local_mex('change', this.id, double(B), i(:), j(:), d(:));
+            sparse_local_mex('change_entries', this.id, double(B), i(:), j(:), d(:));
         end
 
         function P = constraints(this, list)

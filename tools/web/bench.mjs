@@ -39,7 +39,7 @@ function say(name, ms, ratio) {
     console.log(`${name.padEnd(40)}${ms.toPrecision(3).padStart(10)}${ratio ? ratio.toFixed(1).padStart(8) : ""}`);
 }
 
-const sl = await load(), A = sl.matrix(n, rows, columns, values);
+const sl = await load(), A = sl.fromTriplets(n, rows, columns, values);
 const [factored, F] = time(() => sl.factor(A), 5);
 const [refactored] = time(() => F.refactor(A), 9);
 const heapB = sl.float64(n), heapX = sl.float64(n);
@@ -50,7 +50,7 @@ const one = sl.float64(1), value = sl.float64(1);
 one.view[0] = 1;
 const [spread] = time(() => everywhere.solve(one, heapX), 25), [local] = time(() => near.solve(one, value), 999);
 const edge = [[source, source + 1, source + 1], [source, source + 1, source]];
-const [changed] = time(k => F.updateEntries(...edge, k % 2 ? [-1, -1, 1] : [1, 1, -1]), 21);
+const [changed] = time(k => F.changeEntries(...edge, k % 2 ? [-1, -1, 1] : [1, 1, -1]), 21);
 say("sparse-local: order and factor", factored);
 say("sparse-local: refactor", refactored);
 say("sparse-local: solve", solved);

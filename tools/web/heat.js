@@ -26,7 +26,7 @@ let stop = clock("load");
 const sl = await load();
 stop();
 stop = clock("matrix");
-const A = sl.matrix(n, Int32Array.from(rows), Int32Array.from(columns), Float64Array.from(values));
+const A = sl.fromTriplets(n, Int32Array.from(rows), Int32Array.from(columns), Float64Array.from(values));
 stop();
 stop = clock("factor");
 const F = sl.factor(A, {definite: true});
@@ -44,7 +44,7 @@ stop();
 console.log(`${x} is ${heat.view[source + 5]}`);
 
 stop = clock("an edge that conducts ten times as much");
-F.updateEntries([source, source + 1, source + 1], [source, source + 1, source], [9, 9, -9]);
+F.changeEntries([source, source + 1, source + 1], [source, source + 1, source], [9, 9, -9]);
 stop();
 console.log(`now ${near.solve([1])[0]}`);
 

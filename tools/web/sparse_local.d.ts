@@ -28,7 +28,7 @@ export interface FactorOptions {
 
 export interface AnalysisOptions {
     triangle?: "auto" | "lower" | "upper" | "both";
-    ordering?: "dissection" | "minimum-degree" | "natural" | "given";
+    ordering?: "nd" | "mindeg" | "natural" | "given";
     perm?: Numbers; /* perm[k]: row that is pivot k */
     blockSize?: number; /* rows of a vertex that stay together */
     purpose?: "many-solves" | "one-factor";
@@ -38,7 +38,7 @@ export type Options = AnalysisOptions & FactorOptions;
 
 export interface FactorStats {
     nnzL: number; /* entries of L */
-    stored: number; /* with padding */
+    nnzPanels: number; /* the same with padding */
     supernodes: number;
     bytes: number;
     positive: number; /* pivots by sign */
@@ -109,9 +109,9 @@ export class Factor implements Owned {
     localSolve(bset: Numbers | null, xset: Numbers | null, b: Numbers): Float64Array;
     localSolve<X extends Result>(bset: Numbers | null, xset: Numbers | null, b: Numbers, x: X): X;
     /** A + V diag(sigma) V': V has k columns, each with the rows of one entry or edge of A. */
-    update(V: {p: Numbers, i: Numbers, x: Numbers}, sigma?: Numbers | null): this;
+    rankUpdate(V: {p: Numbers, i: Numbers, x: Numbers}, sigma?: Numbers | null): this;
     /** a_ij and a_ji by deltas, each pair given once. */
-    updateEntries(rows: Numbers, columns: Numbers, deltas: Numbers): this;
+    changeEntries(rows: Numbers, columns: Numbers, deltas: Numbers): this;
     constraints(rows?: Numbers): Constraints;
     dispose(): void;
     [Symbol.dispose](): void;
@@ -159,7 +159,7 @@ export class SparseLocal {
     float64(length: number): HeapArray<Float64Array>;
     int32(length: number): HeapArray<Int32Array>;
     /** A matrix from triplets; equal positions are summed. */
-    matrix(n: number, rows: Numbers, columns: Numbers, values: Numbers): Matrix;
+    fromTriplets(n: number, rows: Numbers, columns: Numbers, values: Numbers): Matrix;
     /** The matrix of a Matrix Market file: square, coordinate, real or integer; a symmetric one gives its
      *  lower triangle. Sizes are compared with the limits before memory is allocated. */
     readMatrix(source: string | BufferSource, limits?: Limits): Matrix;

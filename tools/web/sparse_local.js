@@ -6,7 +6,7 @@
  * - any other arrays of numbers: copied into the heap for the time of the call. */
 
 const triangles = {auto: 0, lower: 1, upper: 2, both: 3};
-const orderings = {dissection: 0, given: 3, natural: 4, "minimum-degree": 5};
+const orderings = {nd: 0, given: 3, natural: 4, mindeg: 5};
 const purposes = {"many-solves": 0, "one-factor": 1};
 const nullPivots = {refuse: 0, skip: 1};
 const statuses = ["OK", "ARGUMENT", "MEMORY", "MALFORMED", "PIVOT", "NOT_FINITE", "TOO_LARGE",
@@ -412,7 +412,7 @@ export class Factor extends Owned {
 
     get stats() {
         const x = this.heap.view(Float64Array, this.heap.exports.web_factor_stats(this.alive) >>> 0, 9);
-        return {nnzL: x[0], stored: x[1], supernodes: x[2], bytes: x[3] + x[4], positive: x[5],
+        return {nnzL: x[0], nnzPanels: x[1], supernodes: x[2], bytes: x[3] + x[4], positive: x[5],
             negative: x[6], null: x[7], growth: x[8]};
     }
 
@@ -455,19 +455,19 @@ export class Factor extends Owned {
     }
 
     /** A + V diag(sigma) V'; V: k columns {p, i, x}. */
-    update(V, sigma = null) {
+    rankUpdate(V, sigma = null) {
         const {heap, n} = this, k = countOf(V?.p, "V.p") - 1;
-        heap.call(() => heap.exports.web_update(this.alive, n, k, ...putMatrix(heap, {...V, n}, true, k),
-            heap.put(sigma, Float64Array, k, "sigma")));
+        heap.call(() => heap.exports.web_rank_update(this.alive, n, k,
+            ...putMatrix(heap, {...V, n}, true, k), heap.put(sigma, Float64Array, k, "sigma")));
         return this;
     }
 
     /** Entries (rows[k], columns[k]), and their mirror images, by deltas[k]. */
-    updateEntries(rows, columns, deltas) {
+    changeEntries(rows, columns, deltas) {
         const {heap} = this, count = countOf(rows, "rows");
-        heap.call(() => heap.exports.web_update_entries(this.alive, heap.put(rows, Int32Array, count, "rows"),
-            heap.put(columns, Int32Array, count, "columns"), heap.put(deltas, Float64Array, count, "deltas"),
-            count));
+        heap.call(() => heap.exports.web_change_entries(this.alive,
+            heap.put(rows, Int32Array, count, "rows"), heap.put(columns, Int32Array, count, "columns"),
+            heap.put(deltas, Float64Array, count, "deltas"), count));
         return this;
     }
 
@@ -558,7 +558,7 @@ export class SparseLocal {
     int32(length) { return new HeapArray(this.#heap, Int32Array, integer(length, "length")); }
 
     /** Sums equal positions; one triangle, or both. */
-    matrix(n, rows, columns, values) {
+    fromTriplets(n, rows, columns, values) {
         const heap = this.#heap, count = countOf(rows, "rows");
         return heap.call(() => heap.exports.web_triplets(integer(n, "n"), count,
             heap.put(rows, Int32Array, count, "rows"), heap.put(columns, Int32Array, count, "columns"),
@@ -577,7 +577,7 @@ export class SparseLocal {
         }
         checkLimit(isText ? source.length : source.byteLength, limits.maxBytes, "maxBytes");
         const {n, rows, cols, values} = triplets(isText ? source : new TextDecoder().decode(source), limits);
-        return this.matrix(n, rows, cols, values);
+        return this.fromTriplets(n, rows, cols, values);
     }
     analyze(A, options = {}) {
         const heap = this.#heap;

@@ -221,16 +221,16 @@ sl_status web_local_solve(const sl_factor *F, const sl_int *bset, sl_int nb, con
 /* ---- changes ---- */
 
 /** V: n x k in compressed columns; sigma: k weights, or NULL. */
-WEB_EXPORT(web_update)
-sl_status web_update(sl_factor *F, sl_int n, sl_int k, const sl_int *p, const sl_int *i,
-                     const double *x, const double *sigma) {
+WEB_EXPORT(web_rank_update)
+sl_status web_rank_update(sl_factor *F, sl_int n, sl_int k, const sl_int *p, const sl_int *i,
+                          const double *x, const double *sigma) {
     const sl_csc V = {n, k, p, i, x};
     forget();
     return keep(sl_factor_rank_update(F, &V, sigma, workspace(), &stats));
 }
 
-WEB_EXPORT(web_update_entries)
-sl_status web_update_entries(sl_factor *F, const sl_int *rows, const sl_int *columns,
+WEB_EXPORT(web_change_entries)
+sl_status web_change_entries(sl_factor *F, const sl_int *rows, const sl_int *columns,
                              const double *deltas, sl_int count) {
     forget();
     return keep(

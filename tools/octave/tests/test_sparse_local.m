@@ -3,7 +3,7 @@ function test_sparse_local(varargin)
 %
 %   Prints each test, and at the end `N passed, N failed`; fails if a test did. make test-octave
 
-    tests = {@full_solves, @local_solves, @entries_of_the_inverse, @parts_of_the_factor, ...
+    tests = {@full_solves, @local_solves, @entries_of_the_inverse, @factors_as_matrices, ...
              @other_numbers, @changes, @rows_held, @indefinite, @singular, @options, @messages, @names, ...
              @wrong_arguments, @lifetimes, @quadratic_energies, @help_texts, @readme, ...
              @heat_example};
@@ -125,18 +125,18 @@ function entries_of_the_inverse()
     Z = inv(full(A));
     near(F.diagonal(), diag(Z), 1e-12);
     near(F.diagonal([5, 3, 5]), diag(Z([5, 3, 5], [5, 3, 5])), 1e-12);
-    near(F.entries([1, 2], [80, 3]), [Z(1, 80); Z(2, 3)], 1e-12);
+    near(F.pairs([1, 2], [80, 3]), [Z(1, 80); Z(2, 3)], 1e-12);
     near(F.block([4, 2], [1, 9, 81]), Z([4, 2], [1, 9, 81]), 1e-12);
     near(F.block(1:n, 1:n), Z, 1e-12);
 end
 
-function parts_of_the_factor()
+function factors_as_matrices()
     A = grid_laplacian(9, 0.3);
     F = sparse_local(A);
     [l, s] = F.logdet();
     near(l, log(det(full(A))), 1e-12);
     assert(s == 1);
-    [L, D, p] = F.parts();
+    [L, D, p] = F.factors();
     near(L * D * L', A(p, p), 1e-13);
     assert(istril(L) && isdiag(D));
     s = F.info();
@@ -144,13 +144,13 @@ function parts_of_the_factor()
     assert(s.nnz_l >= nnz(L) && s.bytes > 8 * nnz(L) && s.pivot_min > 0 && s.threads >= 1);
     K = [A, speye(81, 2); speye(2, 81), sparse(2, 2)];
     F = sparse_local(K, 'pivoted', true);
-    [L, D, p] = F.parts();
+    [L, D, p] = F.factors();
     near(L * D * L', K(p, p), 1e-12);
     [l, s] = F.logdet();
     assert(s == sign(det(full(K))) && isfinite(l));
     B = grid_laplacian(5, 0);
     F = sparse_local(B, 'null_pivots', 'skip');
-    [L, D, p] = F.parts();
+    [L, D, p] = F.factors();
     near(L * D * L', B(p, p), 1e-13);
 end
 
@@ -181,24 +181,24 @@ function changes()
     b = cos(1:n)';
     F = sparse_local(A);
     V = sparse([3, 4, 30], [1, 1, 2], [1, -1, 2], n, 2);
-    F.update(V);
+    F.rank_update(V);
     B = A + V * V';
     near(F \ b, B \ b, 1e-12);
     F.downdate(V);
     near(F \ b, A \ b, 1e-12);
-    F.update(full(V), [2; 0.5]);
+    F.rank_update(full(V), [2; 0.5]);
     near(F \ b, (A + V * diag([2, 0.5]) * V') \ b, 1e-12);
-    F.update(V, [-2; -0.5]);
+    F.rank_update(V, [-2; -0.5]);
     C = A;
     C(9, 9) = 7;
     C(9, 10) = -2;
     C(10, 9) = -2;
-    F.change(C, A);
+    F.change_entries(C, A);
     near(F \ b, C \ b, 1e-12);
-    F.change(A, C);
+    F.change_entries(A, C);
     near(F \ b, A \ b, 1e-12);
     refused('pivot', 'row', @() F.downdate(sparse(5, 1, 100, n, 1)));
-    refused('other_pattern', 'row', @() F.update(sparse([1, n], [1, 1], [1, 1], n, 1)));
+    refused('other_pattern', 'row', @() F.rank_update(sparse([1, n], [1, 1], [1, 1], n, 1)));
     near(F \ b, A \ b, 1e-12);
 end
 
@@ -310,7 +310,7 @@ function messages()
     n = size(A, 1);
     refused('argument', '(row 101)', @() F.local(101, 1, 1));
     refused('argument', '(row 105)', @() F.diagonal([1, 105]));
-    refused('argument', '(column 200)', @() F.entries([1, 3], [2, 200]));
+    refused('argument', '(column 200)', @() F.pairs([1, 3], [2, 200]));
     refused('argument', 'whole numbers from 1 on, not 0', @() F.local(0, 1, 1));
     refused('argument', 'not 1.5', @() F.plan(1, 1.5));
     refused('malformed', '(row 5, column 7)', @() sparse_local(A + sparse(5, 7, 1, n, n)));
@@ -319,9 +319,9 @@ function messages()
     refused('argument', 'square', @() sparse_local(sparse(3, 4)));
     refused('argument', 'complex', @() sparse_local(A * 1i));
     refused('argument', 'b has 3 rows, not 100', @() F.solve([1; 2; 3]));
-    refused('argument', 'real doubles', @() F.entries(1i, 2));
-    refused('argument', 'one length', @() F.entries([1, 2], 1));
-    refused('argument', 'one length', @() F.entries(':', 1));
+    refused('argument', 'real doubles', @() F.pairs(1i, 2));
+    refused('argument', 'one length', @() F.pairs([1, 2], 1));
+    refused('argument', 'one length', @() F.pairs(':', 1));
     refused('argument', 'a set of rows', @() F.block(':', 1));
     refused('argument', 'a set of rows', @() F.constraints(':'));
     G = sparse_local(grid_laplacian(9, 0.1));
@@ -425,13 +425,13 @@ function calls = wrong_uses()
         @() sparse_local(A * NaN), @() sparse_local(A + sparse(2, 1, 7, n, n)), ...
         @() sparse_local(A, 'ordering', 'no'), @() F.solve(ones(n + 1, 1)), @() F.solve(late), ...
         @() F.local(3, NaN, 4), @() F.local(n + 1, 1, 1), @() F.plan(0, 1), @() S.solve(b), ...
-        @() S.local(3, 1, 4), @() F.diagonal(n + 1), @() F.entries(1, n + 1), ...
+        @() S.local(3, 1, 4), @() F.diagonal(n + 1), @() F.pairs(1, n + 1), ...
         @() F.block(1, n + 1), @() Q.diagonal(1), @() F.refactor(E), @() F.refactor(K), ...
         @() sparse_local_mex('plan_solve', F.id, R.id, 1), @() P.solve(b, 1), ...
         @() F.constraints([3, 3]), @() F.constraints(n + 1), @() I.constraints(1), ...
-        @() Q.constraints(1), @() F.update(sparse([1, n], [1, 1], [1, 1], n, 1)), ...
-        @() F.update(sparse(n + 1, 1)), @() S.update(sparse(1, 1, 1, n, 1)), ...
-        @() Q.update(sparse(1, 1, 1, 3, 1)), @() F.change(E, A), @() F.rcond(K), ...
+        @() Q.constraints(1), @() F.rank_update(sparse([1, n], [1, 1], [1, 1], n, 1)), ...
+        @() F.rank_update(sparse(n + 1, 1)), @() S.rank_update(sparse(1, 1, 1, n, 1)), ...
+        @() Q.rank_update(sparse(1, 1, 1, 3, 1)), @() F.change_entries(E, A), @() F.rcond(K), ...
         @() F.refine(A, late), @() F.refine(A, b, -1), @() closed.solve(b), @() closed.info(), ...
         @() F.downdate(1e3 * sparse(1, 1, 1, n, 1))};
 end
@@ -439,9 +439,10 @@ end
 function wrong_arguments()
     % Each command of the mex file with arguments of every wrong kind: an error, and no crash.
     commands = {'create', 2; 'refactor', 2; 'solve', 2; 'refine', 4; 'rcond', 2; 'logdet', 1; ...
-                'parts', 1; 'info', 1; 'local', 4; 'plan', 3; 'plan_solve', 3; 'diagonal', 2; ...
-                'entries', 3; 'block', 3; 'update', 3; 'change', 5; 'constraints', 1; 'constraints_add', 2; ...
-                'constraints_release', 2; 'constraints_refactor', 1; 'constraints_solve', 6};
+                'factors', 1; 'info', 1; 'local', 4; 'plan', 3; 'plan_solve', 3; 'diagonal', 2; ...
+                'pairs', 3; 'block', 3; 'rank_update', 3; 'change_entries', 5; 'constraints', 1; ...
+                'constraints_add', 2; 'constraints_release', 2; 'constraints_refactor', 1; ...
+                'constraints_solve', 6};
     things = {[], 'x', {}, {1, 2}, struct('a', 1), single(3), true, 1i, sparse(2), -1, NaN, ...
               1e300, uint8(3), @sin, ones(2, 2, 2)};
     A = grid_laplacian(4, 1);

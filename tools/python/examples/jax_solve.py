@@ -1,17 +1,17 @@
 """jax_solve.py: solves, log-determinants and entries of the inverse inside of JAX; needs jax
 
     system = System(A)                        # the pattern, analyzed once
-    solve, logdet, entries = functions(system)
+    solve, logdet, pairs = functions(system)
     jax.grad(lambda values: solve(values, b).sum() + logdet(values))(values)
 
 System computes with NumPy. functions hands its methods to JAX by pure_callback, and says by
 custom_vjp what their derivatives are. These consist of the same functions, so that solve has
-derivatives of any order, logdet has two and entries has one.
+derivatives of any order, logdet has two and pairs has one.
 """
 import numpy as np
 
 from sparse_local import Analysis
-from sparse_local.gradients import Stored, entries_gradient
+from sparse_local.gradients import Stored, pairs_gradient
 
 
 class System:
@@ -41,12 +41,12 @@ class System:
     def logdet(self, values):
         return np.asarray(self.factor(values).logdet()[1])
 
-    def entries(self, values, rows, columns):
+    def pairs(self, values, rows, columns):
         return self.factor(values).pairs(np.asarray(rows), np.asarray(columns))
 
-    def entries_gradient(self, values, rows, columns, g):
-        return entries_gradient(self.factor(values), self.matrix(values), np.asarray(rows),
-                                np.asarray(columns), np.asarray(g))
+    def pairs_gradient(self, values, rows, columns, g):
+        return pairs_gradient(self.factor(values), self.matrix(values), np.asarray(rows),
+                              np.asarray(columns), np.asarray(g))
 
     def products(self, lam, x):
         """The gradient by the values of x = A^-1 b; lam = A^-1 g. For arrays of NumPy and JAX."""
@@ -56,7 +56,7 @@ class System:
 
 
 def functions(system):
-    """(solve, logdet, entries) of JAX: solve(values, b), logdet(values), entries(values, rows,
+    """(solve, logdet, pairs) of JAX: solve(values, b), logdet(values), pairs(values, rows,
     columns)."""
     import jax
     jax.config.update("jax_enable_x64", True)
@@ -80,23 +80,23 @@ def functions(system):
         return x, (values, x)
 
     @jax.custom_vjp
-    def entries(values, rows, columns):
-        return called(system.entries, rows.shape, values, rows, columns)
+    def pairs(values, rows, columns):
+        return called(system.pairs, rows.shape, values, rows, columns)
 
-    def entries_backward(kept, g):
-        return called(system.entries_gradient, (count,), *kept, g), None, None
+    def pairs_backward(kept, g):
+        return called(system.pairs_gradient, (count,), *kept, g), None, None
 
     @jax.custom_vjp
     def logdet(values):
         return called(system.logdet, (), values)
 
     def logdet_backward(values, g):
-        return (2.0 * g * system.stored.weights * entries(values, i, j),)
+        return (2.0 * g * system.stored.weights * pairs(values, i, j),)
 
     solve.defvjp(solve_forward, solve_backward)
-    entries.defvjp(lambda *arguments: (entries(*arguments), arguments), entries_backward)
+    pairs.defvjp(lambda *arguments: (pairs(*arguments), arguments), pairs_backward)
     logdet.defvjp(lambda values: (logdet(values), values), logdet_backward)
-    return solve, logdet, entries
+    return solve, logdet, pairs
 
 
 def main():
@@ -104,13 +104,13 @@ def main():
     from scipy.sparse import diags
     n = 100
     A = diags([np.full(n, 2.1), np.full(n - 1, -1.0)], [0, -1], format="csc")
-    solve, logdet, entries = functions(System(A))
+    solve, logdet, pairs = functions(System(A))
     rows = np.arange(n)
 
     def loss(values):
         """That of a Gaussian field with precision A, and of its variances."""
         x = solve(values, np.ones(n))
-        return (x * x).sum() - logdet(values) + entries(values, rows, rows).sum()
+        return (x * x).sum() - logdet(values) + pairs(values, rows, rows).sum()
 
     value, gradient = jax.jit(jax.value_and_grad(loss))(A.data)
     step = 1e-6 * np.cos(np.arange(A.nnz))

@@ -13,54 +13,59 @@ _METHODS = ("none", "update", "reach", "refactor")
 
 
 class Changes:
-    """What Factor inherits: changes. No other thread may use the factor during update, change,
-    rank_update; restrict and edit read it only."""
+    """What Factor inherits: changes. No other thread may use the factor during change_entries and
+    rank_update; submatrix and edit read it only."""
 
-    def update(self, A, columns=None):
-        """Factors A again after changes in these columns only; None: anywhere, as refactor.
+    def change_entries(self, A=None, rows=None, columns=None, deltas=None, *, was=None):
+        """Follows changes of some entries or columns of A. changed["method"] is the way that was
+        taken: 'none', 'update' (rank-one changes), 'reach' (what the changes reach in L is computed
+        anew) or 'refactor'.
 
-        Only what the changes reach in L is computed anew, which pays where they are in one place.
-        A has the analyzed pattern; entries in other columns are not compared: the backward error
-        of refine with 0 steps tells whether this is a factor of A. Errors as in refactor;
-        StateError: the factor is mapped.
-        """
-        if columns is None:
-            return self.refactor(A)
-        keep, address, count = self._kind.set(columns)
-        matrix, stats = self.analysis._matrix(A), Stats()
-        self._nulls = None
-        self._checked(self._lib.sl_factor_change_entries(
-            self._pointer, matrix.reference(), None, address, None, count, None,
-            ctypes.byref(stats)), stats)
-        return self
-
-    def change(self, A, was=None, *, rows=None, columns=None, deltas=None):
-        """Follows changes of some entries in the cheapest way, which is returned: 'none', 'update'
-        (rank-one changes), 'reach' (as update) or 'refactor'.
-
-        A        the changed matrix, in the analyzed pattern.
-        was      the matrix before the change, stored as A: the entries that differ are found.
-        rows, columns, deltas  or these entries: a(i, j) = a(j, i) has changed by delta, each pair
-                 once. An edge between i and j that gains the weight w is (i, j, -w), (i, i, w) and
+        A        the changed matrix, in the analyzed pattern. By entries the cheapest way is taken;
+                 without A rank-one changes, with the errors of rank_update.
+        rows, columns, deltas  entries: a(i, j) = a(j, i) has changed by delta, each pair once. An
+                 edge between i and j that gains the weight w is (i, j, -w), (i, i, w) and
                  (j, j, w).
+        was      in place of them the matrix before the change, stored as A: the entries that differ
+                 are found.
+        columns  alone: columns in which entries have changed; what they reach in L is computed
+                 anew, which pays where they are in one place.
         Errors   as in refactor, after which the factor may have no numbers; ArgumentError: an index
-                 out of range. A set of entries that is not the whole difference is not noticed.
+                 out of range; StateError: the factor is mapped. Entries that have changed and are
+                 not named are not noticed: the backward error of refine with 0 steps tells whether
+                 this is a factor of A.
         Cost     nothing of O(n) by rank-one changes, but for was: one pass over both arrays.
         """
-        self._refuse_complex("change")
-        matrix = self.analysis._matrix(A)
+        by_columns = columns is not None and rows is None and deltas is None
+        if not by_columns:
+            self._refuse_complex("change_entries by entries", "refactor, or columns alone")
+        matrix = None if A is None else self.analysis._matrix(A)
         if was is not None:
+            if matrix is None or not (rows is None and columns is None and deltas is None):
+                raise ArgumentError("was needs the changed matrix, and no entries or columns")
             rows, columns, deltas = _differences(matrix, self.analysis._matrix(was),
                                                  self.analysis.stats["triangle"])
-        i, j, delta = _entries(rows, columns, deltas)
-        stats = Stats()
+        if by_columns:
+            if matrix is None:
+                raise ArgumentError("columns alone need the changed matrix")
+            keep, j, count = self._kind.set(columns)
+            i = delta = None
+        else:
+            numbers = _entries(rows, columns, deltas)
+            i, j, delta = map(arrays.address, numbers)
+            count = numbers[0].size
+        has_way_out = matrix is not None and not by_columns  # a failed factor is refactored
+        pointer, stats = self._factor.pointer if has_way_out else self._pointer, Stats()
         self._nulls = None
-        self._checked(self._lib.sl_factor_change_entries(self._factor.pointer, matrix.reference(),
-                                                 arrays.address(i), arrays.address(j),
-                                                 arrays.address(delta), i.size, self._work(),
-                                                 ctypes.byref(stats)), stats)
+        self._checked(self._lib.sl_factor_change_entries(
+            pointer, None if matrix is None else matrix.reference(), i, j, delta,
+            count, self._work(), ctypes.byref(stats)), stats)
+        return self._note(stats)
+
+    def _note(self, stats):
         self.changed = as_dict(stats.change)
-        return _METHODS[stats.change.method]
+        self.changed["method"] = _METHODS[stats.change.method]
+        return self
 
     def rank_update(self, V, sigma=None):
         """Makes this the factor of A + V diag(sigma) V'.
@@ -73,7 +78,7 @@ class Changes:
                   pivots, L in float.
         Cost      4 flops per vector and entry of L in the columns on its path.
         """
-        self._refuse_complex("rank_update")
+        self._refuse_complex("rank_update", "refactor")
         matrix, stats = Matrix(V.tocsc() if hasattr(V, "tocsc") else V), Stats()
         if matrix.is_complex:
             raise TypeError("V must be real")
@@ -83,29 +88,13 @@ class Changes:
         self._checked(self._lib.sl_factor_rank_update(self._pointer, matrix.reference(),
                                                  None if sigma is None else arrays.address(sigma),
                                                  self._work(), ctypes.byref(stats)), stats)
-        self.changed = as_dict(stats.change)
-        return self
+        return self._note(stats)
 
-    def update_entries(self, rows, columns, deltas):
-        """Follows changes of entries by rank-one changes, without the changed matrix; see change.
-
-        Errors and cost as in rank_update.
-        """
-        self._refuse_complex("update_entries")
-        i, j, delta = _entries(rows, columns, deltas)
-        stats = Stats()
-        self._nulls = None
-        self._checked(self._lib.sl_factor_change_entries(
-            self._pointer, None, arrays.address(i), arrays.address(j), arrays.address(delta),
-            i.size, self._work(), ctypes.byref(stats)), stats)
-        self.changed = as_dict(stats.change)
-        return self
-
-    def _refuse_complex(self, what):
+    def _refuse_complex(self, what, instead):
         if self._kind is arrays.COMPLEX:
-            raise UnsupportedError("%s of a complex matrix; use refactor or update" % what)
+            raise UnsupportedError("%s of a complex matrix; use %s" % (what, instead))
 
-    def restrict(self, A, rows):
+    def submatrix(self, A, rows):
         """The Factor of A[rows][:, rows], from this one; row k of it is row rows[k] of A.
 
         A is the factored matrix. The result does not depend on this factor; refactor, changes and
@@ -173,7 +162,7 @@ class Changes:
 def _entries(rows, columns, deltas):
     """Entries that change, as arrays of one length, and finite."""
     if rows is None or columns is None or deltas is None:
-        raise ArgumentError("rows, columns and deltas are needed, or the matrix before the change")
+        raise ArgumentError("rows, columns and deltas are needed, or columns alone, or was")
     i, j = arrays.rows(rows)[0], arrays.rows(columns)[0]
     delta = arrays.vector(deltas, i.size, "deltas")
     if i.size != j.size:

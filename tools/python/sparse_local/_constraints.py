@@ -23,10 +23,10 @@ class Constraints:
     (FixedRows), which the next solve makes; equalities and plans then raise ArgumentError.
 
     Errors    UnsupportedError: pivots of both signs, 2x2 pivots; StateError: the factor has changed
-              since (update); PivotError: a row is held already.
+              since (refactor); PivotError: a row is held already.
     Cost      a forward sweep for each pin, a full solve for each solution; without A, the square of
               the number of pins.
-    Threads   add, release and update need the pins for themselves; solve does not.
+    Threads   add, release and refactor need the pins for themselves; solve does not.
     """
 
     def __init__(self, factor, rows=(), A=None):
@@ -56,8 +56,11 @@ class Constraints:
         self.stats = as_dict(stats.constraints)
         return self
 
-    def add(self, rows):
-        """Adds pins, all or none; they become the last ones, in the order of rows."""
+    def add(self, rows, values=None):
+        """Adds pins, all or none; they become the last ones, in the order of rows. With values,
+        adds one equality: the sum of values[k] x[rows[k]] is held. Of real matrices."""
+        if values is not None:
+            return self._add_equality(rows, values)
         keep, address, count = self._factor._kind.set(rows)
         if address is None:
             raise ArgumentError("a set of rows is needed")
@@ -85,8 +88,7 @@ class Constraints:
         self.stats = {"count": len(rows)}
         return self
 
-    def add_equality(self, rows, coefficients):
-        """Adds an equality: the sum of coefficients[k] x[rows[k]] is held. Of real matrices."""
+    def _add_equality(self, rows, values):
         if self._factor._kind is arrays.COMPLEX:
             raise ArgumentError("equalities are those of real matrices")
         keep, address, count = arrays.rows(rows)
@@ -94,7 +96,7 @@ class Constraints:
             raise ArgumentError("an equality needs rows")
         if self._is_many:
             raise ArgumentError("equalities need at most %d held rows" % MANY)
-        values, stats = arrays.vector(coefficients, count, "coefficients"), Stats()
+        values, stats = arrays.vector(values, count, "values"), Stats()
         self._factor._pointer
         return self._done(self._lib.sl_constraints_add(
             self._held.pointer, address, arrays.address(values), count, ctypes.byref(stats)),
@@ -105,15 +107,15 @@ class Constraints:
         self._rows.append(None)
         return self
 
-    def release(self, numbers):
+    def release(self, indices):
         """Releases pins by their numbers, 0-based; the others move together."""
-        numbers = np.asarray(numbers)
-        if numbers.size and ((numbers < 0).any() or (numbers >= self._count).any()):
+        indices = np.asarray(indices)
+        if indices.size and ((indices < 0).any() or (indices >= self._count).any()):
             raise ArgumentError("pins have numbers from 0 to %d" % (self._count - 1))
-        gone = set(int(k) for k in numbers.ravel())
+        gone = set(int(k) for k in indices.ravel())
         left = [row for k, row in enumerate(self._rows) if k not in gone]
         if not self._is_many:
-            self._release(numbers)
+            self._release(indices)
             self._rows, self._equalities = left, left.count(None)
         elif len(left) > MANY // 2:
             self._fix(left)
@@ -129,8 +131,8 @@ class Constraints:
         check(self._lib.sl_constraints_solve(self._held.pointer, None, None, 1, None, 1, None, 1, 0,
                                              None))
 
-    def _release(self, numbers):
-        keep, address, count = self._factor._kind.set(numbers)
+    def _release(self, indices):
+        keep, address, count = self._factor._kind.set(indices)
         stats, width = Stats(), self._factor._kind.width
         self._factor._pointer  # refuses a failed or closed factor
         if not count:
@@ -139,7 +141,7 @@ class Constraints:
                                                     ctypes.byref(stats)),
                           stats, self._count - count // width)
 
-    def update(self, A=None):
+    def refactor(self, A=None):
         """Takes the present numbers of the factor, after it has changed; A: its new matrix."""
         self._factor._pointer
         if self._A is not None and A is None:

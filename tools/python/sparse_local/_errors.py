@@ -103,7 +103,7 @@ class StaleError(StateError):
 
 
 class ReadOnlyError(StateError):
-    """A mapped object that would have to change, or a factor of Factor.restrict."""
+    """A mapped object that would have to change, or a factor of Factor.submatrix."""
     status = "READ_ONLY"
 
 

@@ -62,7 +62,7 @@ class Factor(Solves, Entries, Changes, Files):
     Errors      PivotError, NotFiniteError, PatternError, ArgumentError and others with the row.
     Cost        the order, the analysis, and O(sum over columns of L of entries^2) flops.
     Threads     any number of threads may call all methods at once, but those that change the
-                factor: refactor, update, change, rank_update, certify, close. Calls release the
+                factor: refactor, change_entries, rank_update, certify, close. Calls release the
                 global interpreter lock.
     """
 

@@ -59,7 +59,7 @@ class FixedRows:
         return matrix
 
     @property
-    def free(self):
+    def free_rows(self):
         """The rows that are not fixed, ascending."""
         view, width = lib.sl_fixed_view(self._fixed.pointer), self._kind.width
         if not view.n_free:

@@ -24,13 +24,13 @@ NAMES = {
     ": compiled with SL_NO_SINGULAR": ": not compiled in",
     "; SL_NO_SINGULAR leaves out options.pivots": "; null_pivots is not compiled in",
     # calls and what they return
-    "sl_constraints_refactor": "Constraints.update",
-    "sl_region_refactor": "Region.update",
-    "sl_selected_refactor": "Selected.update",
+    "sl_constraints_refactor": "Constraints.refactor",
+    "sl_region_refactor": "Region.refactor",
+    "sl_selected_refactor": "Selected.refactor",
     "sl_fixed_refactor": "FixedRows.refactor",
     "sl_factor_pivot_rows": "Factor.pivot_rows",
     "sl_factor_certify": "Factor.certify",
-    "sl_factor_submatrix": "Factor.restrict",
+    "sl_factor_submatrix": "Factor.submatrix",
     "sl_load copies without SL_LOAD_MAPPED": "Factor.load copies without map=True",
     "SL_LOAD_MAPPED": "map=True",
     "certainty is neither SL_ESTIMATED nor SL_GUARANTEED":

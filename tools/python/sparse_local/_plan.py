@@ -16,8 +16,8 @@ _PARTS = {"P": 1, "L": 2, "D": 4, "sqrtD": 8, "LT": 16, "PT": 32}
 class Region:
     """Rows inside which local solves cost the same whatever the size of the matrix.
 
-    After factor.refactor call update(); until then plans in the region raise StateError. Use it by
-    factor.plan(bset, xset, region=R), with both sets inside the region.
+    After factor.refactor call refactor(); until then plans in the region raise StateError. Use it
+    by factor.plan(bset, xset, region=R), with both sets inside the region.
 
     bytes  upper bound on the memory of a region with a boundary; 0: none.
     InaccurateError: solves would lose digits, as pivots have both signs; UnsupportedError: a factor
@@ -45,7 +45,7 @@ class Region:
             raise TypeError("a region of a file is not pickled: Region(factor, rows) is")
         return Region, (self._factor,) + self._made_with
 
-    def update(self):
+    def refactor(self):
         """Computes the region again from the present numbers of the factor."""
         check(lib.sl_region_refactor(self._region.pointer, self._factor._pointer, None,
                                      self._factor._work()))
@@ -135,7 +135,7 @@ class Plan:
                                         ctypes.byref(stats)), stats)
         return dense.X, bounds
 
-    def solve_refined(self, B, steps=2):
+    def solve_regularized(self, B, steps=2):
         """(x, error): x as solve returns it, without what regularization changed, by at most steps
         corrections; error is the backward error that is left.
 

@@ -17,7 +17,7 @@ from ._threads import calls, set_threads
 class Selected:
     """The entries of the inverse in the pattern of the factor: all, or those that rows need.
 
-    They are those of the numbers that the factor had; update() computes them again. Reading an
+    They are those of the numbers that the factor had; refactor() computes them again. Reading an
     entry takes less than a microsecond, whatever the size of the matrix. Of a singular matrix they
     are those of the pseudo-inverse, unless pseudo=False is passed where they are read.
 
@@ -41,7 +41,7 @@ class Selected:
         self._lib = getattr(self, "_lib", factor._lib)
         self._nulls = factor._null_space()
 
-    def update(self):
+    def refactor(self):
         """Computes the entries from the present numbers of the factor; StateError: mapped."""
         check(self._lib.sl_selected_refactor(self._selected.pointer, self._factor._pointer,
                                              self._factor._work()))

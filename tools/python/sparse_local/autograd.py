@@ -6,13 +6,13 @@ processor.
     y = system.local(values, [3], b[:1], [7, 8])
     l = system.logdet(values)
     v = system.diagonal(values)               # variances
-    z = system.entries(values, [3, 4], [5, 5])
+    z = system.pairs(values, [3, 4], [5, 5])
 
 values  has the shape (entries,), or (..., entries): a batch of systems. b has the batch of the
 values or one of its own, (..., n, count), or none. Both may be sparse tensors, COO or CSR, without
 a batch: values with the pattern of A, and b. The gradient of a sparse tensor has its layout.
 
-All are differentiable by values and b; solves any number of times, logdet twice, diagonal, entries
+All are differentiable by values and b; solves any number of times, logdet twice, diagonal, pairs
 and local_solve once. The next derivative raises NotImplementedError. Gradients by values are those
 of sparse_local.gradients: where A stores both triangles, each value of a pair gets half of the
 derivative of the pair. Tensors of float32 are computed in float64; results are float64.
@@ -24,7 +24,7 @@ from ._analysis import Analysis
 from ._errors import ArgumentError, PatternError
 from ._matrix import from_triplets
 from ._options import split
-from .gradients import Stored, _check_kind, _compressed, entries_gradient
+from .gradients import Stored, _check_kind, _compressed, pairs_gradient
 
 
 class _Values:
@@ -46,8 +46,8 @@ class System:
     those of Factor; values that are not symmetric, where A stores both triangles, raise
     PatternError.
     Cost     a factorization for new values, a full solve for each solve and each gradient of one,
-             a selected inverse for the gradient of logdet; for those of diagonal and entries see
-             gradients.entries_gradient. A batch of b alone is one solve with many columns.
+             a selected inverse for the gradient of logdet; for those of diagonal and pairs see
+             gradients.pairs_gradient. A batch of b alone is one solve with many columns.
     Threads  one thread at a time.
     """
 
@@ -114,11 +114,11 @@ class System:
         """log |det A|, a scalar tensor, or one for each system of a batch."""
         return self._each(values, lambda factor, values: _LogDet.apply(self, factor, values))
 
-    def entries(self, values, rows, columns):
+    def pairs(self, values, rows, columns):
         """(A^-1)[r, c] for the pairs of rows and columns, as many."""
         rows, columns = (np.asarray(s, dtype=np.int64) for s in (rows, columns))
         return self._each(values, lambda factor, values: _Entries.apply(
-            self, factor, "System.entries", rows, columns, values))
+            self, factor, "System.pairs", rows, columns, values))
 
     def diagonal(self, values, rows=None):
         """(A^-1)[r, r] for r in rows, such as marginal variances; None: all."""
@@ -331,7 +331,7 @@ class _Entries(torch.autograd.Function):
     def backward(ctx, g):
         values, = ctx.saved_tensors
         A = _Values(ctx.system._pattern, _array(values))
-        gradient = entries_gradient(ctx.factor, A, *ctx.places, _array(g))
+        gradient = pairs_gradient(ctx.factor, A, *ctx.places, _array(g))
         return (*[None] * 5, _Once.apply(ctx.name, torch.from_numpy(gradient), values, g))
 
 

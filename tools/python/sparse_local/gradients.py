@@ -105,7 +105,7 @@ def logdet_gradient(factor, A, selected=None):
     return 2.0 * stored.weights * selected.entries(stored.rows, stored.columns)
 
 
-def entries_gradient(factor, A, rows, columns, g):
+def pairs_gradient(factor, A, rows, columns, g):
     """d sum(g * factor.pairs(rows, columns)) / dA.data, for variances rows is columns.
 
     A  the factored matrix.
@@ -183,7 +183,7 @@ class LocalGradient:
     rows, columns  entries (i, j) of A, each pair a(i, j) = a(j, i) once.
 
     Nothing takes time proportional to n, neither this nor the solves. The plans stay valid after
-    refactor and change of the factor.
+    refactor and change_entries of the factor.
     """
 
     def __init__(self, factor, bset, xset, rows=(), columns=()):

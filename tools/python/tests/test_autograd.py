@@ -152,7 +152,7 @@ def test_second_derivatives_are_right_or_refused():
     with pytest.raises(NotImplementedError, match="of the gradient of System.logdet"):
         third.sum().backward()
     for name, loss in (("diagonal", lambda values: system.diagonal(values)),
-                       ("entries", lambda values: system.entries(values, [1, 2], [3, 2])),
+                       ("pairs", lambda values: system.pairs(values, [1, 2], [3, 2])),
                        ("inverse", lambda values: system.inverse(values))):
         first, = torch.autograd.grad(loss(v).square().sum(), v, create_graph=True)
         assert first.requires_grad  # what is not differentiated again is not a constant
@@ -186,7 +186,7 @@ def test_entries_of_the_inverse(turn):
     i, j = (s.astype(int) for s in (A.tocoo().row, A.tocoo().col))
     for ours, right in ((system.diagonal, lambda Z: Z.diagonal()),
                         (lambda v: system.diagonal(v, [4, 4]), lambda Z: Z[[4, 4], [4, 4]]),
-                        (lambda v: system.entries(v, [8, 1], [0, 2]), lambda Z: Z[[8, 1], [0, 2]]),
+                        (lambda v: system.pairs(v, [8, 1], [0, 2]), lambda Z: Z[[8, 1], [0, 2]]),
                         (system.inverse, lambda Z: Z[i, j])):
         assert torch.allclose(ours(v), right(inverse_of(A, v)), rtol=1e-12)
         assert torch.autograd.gradcheck(ours, (v,))
@@ -359,7 +359,7 @@ def test_refusals_of_batches_and_sparse_tensors():
         system.solve(torch.sparse_coo_tensor(np.stack([C.row, C.col]), C.data, C.shape), b)
     for wrong in (dict(rows=[9], columns=[0]), dict(rows=[0, 1], columns=[0])):
         with pytest.raises(sl.ArgumentError):
-            system.entries(values, **wrong)
+            system.pairs(values, **wrong)
     L = sp.tril(grid(3, 0.0), format="csc")
     singular, v = autograd.System(L, null_pivots="skip"), tensor(L.data)
     first, = torch.autograd.grad(singular.logdet(v), v, create_graph=True)

@@ -26,7 +26,7 @@ def test_constraints_hold_rows(A, F, count, renewed):
     b, values = right_hand_sides(400, count), right_hand_sides(3, count)
     P = F.constraints(rows)
     if renewed:
-        assert P.update() is P
+        assert P.refactor() is P
     assert len(P) == 3 and P.stats["count"] == 3
     assert np.allclose(P.solve(b, values), held(A, rows, b, values), atol=1e-12)
     assert np.allclose(P.solve(None, values), held(A, rows, 0 * b, values), atol=1e-12)
@@ -74,14 +74,14 @@ def test_many_held_rows_become_a_factor_of_the_others(count):
     with pytest.raises(sl.ArgumentError):
         P.add([1600])
     with pytest.raises(sl.ArgumentError):
-        P.add_equality([0, 1], [1.0, 1.0])
+        P.add([0, 1], [1.0, 1.0])
     with pytest.raises(sl.ArgumentError):
         P.solve(None, np.zeros(len(P)), plan=F.plan([7], [6]))
     F.refactor(2 * A)
     with pytest.raises(sl.ArgumentError):
-        P.update()
+        P.refactor()
     values = right_hand_sides(len(P))
-    x = P.update(2 * A).solve(b[:, 0] if count else b, values)
+    x = P.refactor(2 * A).solve(b[:, 0] if count else b, values)
     free = np.setdiff1d(np.arange(1600), P._rows)
     assert np.allclose((2 * A @ x - (b[:, 0] if count else b))[free], 0, atol=1e-9)
 
@@ -95,14 +95,14 @@ def test_many_held_rows_follow_the_factor():
         with pytest.raises(sl.ArgumentError):
             F.constraints(rows, A=wrong)
         with pytest.raises(sl.ArgumentError):
-            P.update(wrong)
+            P.refactor(wrong)
     values, count = right_hand_sides(500), P.stats["count"]
     assert np.array_equal(P.solve(None, values)[rows], values)
     F.refactor(2 * A)  # P has not been told
     for call in (lambda: P.solve(None, values), lambda: P.release(range(400))):
         with pytest.raises(sl.StateError):
             call()
-    assert len(P) == 500 and P.update(2 * A).stats["count"] == count
+    assert len(P) == 500 and P.refactor(2 * A).stats["count"] == count
     assert np.allclose(P.solve(None, values), held(2 * A, rows, np.zeros(900), values), atol=1e-12)
     P.release(range(400))
     assert len(P) == 100
@@ -125,7 +125,7 @@ def test_many_held_rows_of_one_component_of_two():
 def test_equalities_and_singular_systems():
     A = grid(8, 0.0)
     F = sl.Factor(A, null_pivots="skip")
-    P = F.constraints().add_equality([0, 1, 2], [1.0, 1.0, -1.0]).add([60])
+    P = F.constraints().add([0, 1, 2], [1.0, 1.0, -1.0]).add([60])
     x = P.solve(None, [2.0, 1.0])
     assert x[0] + x[1] - x[2] == pytest.approx(2) and x[60] == pytest.approx(1)
     r = A @ x
@@ -156,7 +156,7 @@ def test_constraints_refuse_what_is_wrong(A, F):
     F.refactor(2 * A)
     with pytest.raises(sl.StateError):
         P.solve(b, [1.0, 2.0])
-    P.update()
+    P.refactor()
     assert P.solve(b, [1.0, 2.0])[3] == pytest.approx(1)
     with pytest.raises(sl.UnsupportedError):
         sl.Factor(grid(6, -2.9)).constraints([1])
@@ -179,18 +179,20 @@ def test_changes_follow_entries(A, turn):
             turn in ("lower", "upper") else getattr(B, turn)()
     B, b = stiffer(A, 17, 18, 2.5), right_hand_sides(400)
     F = sl.Factor(form(A))
-    assert F.change(form(B), form(A)) in ("update", "reach", "refactor")
+    assert F.change_entries(form(B), was=form(A)) is F
+    assert F.changed["method"] in ("update", "reach", "refactor")
     wanted = np.linalg.solve(B.toarray(), b)
     assert np.allclose(F.solve(b), wanted)
-    assert F.change(form(B), form(B)) == "none"
+    assert F.change_entries(form(B), was=form(B)).changed["method"] == "none"
     G = sl.Factor(form(A))
     entries = dict(rows=[17, 17, 18], columns=[18, 17, 18], deltas=[-2.5, 2.5, 2.5])
-    G.change(form(B), **entries)
+    G.change_entries(form(B), **entries)
     assert np.allclose(G.solve(b), wanted)
-    assert np.allclose(sl.Factor(form(A)).update_entries(**entries).solve(b), wanted)
+    assert np.allclose(sl.Factor(form(A)).change_entries(**entries).solve(b), wanted)
     V = sp.csc_matrix(([1.0, -1.0], ([17, 18], [0, 0])), shape=(400, 1))
     H = sl.Factor(form(A)).rank_update(V, [2.5])
     assert np.allclose(H.solve(b), wanted) and H.changed["ranks"] == 1
+    assert H.changed["method"] == "update"
     assert np.allclose(H.rank_update(V, [-2.5]).solve(b), np.linalg.solve(A.toarray(), b))
 
 
@@ -202,7 +204,7 @@ def test_sums_of_scipy_may_be_out_of_order(A):
     for F in (sl.Factor(A), sl.Factor(B), sl.Sum([A]).factor([1.0])):
         assert F.n == 400
     F = sl.Factor(A)
-    F.change(B, A)
+    F.change_entries(B, was=A)
     assert np.allclose(B @ F.solve(b), b) and np.allclose(B @ F.refactor(B).solve(b), b)
     assert np.allclose(A @ sl.Factor(B).refactor(A).solve(b), b)
     assert np.allclose(B @ pickle.loads(pickle.dumps(F)).refactor(B).solve(b), b)
@@ -221,23 +223,26 @@ def test_refused_changes_leave_the_factor(A, F):
     with pytest.raises(sl.NotFiniteError):
         F.rank_update(unit, [np.nan])
     with pytest.raises(sl.NotFiniteError):
-        F.update_entries([5], [5], [np.inf])
+        F.change_entries(None, [5], [5], [np.inf])
     for wrong in (([5], [400], [1.0]), ([5], [-1], [1.0]), ([5, 6], [5], [1.0, 1.0]),
                   ([5], [5], [1.0, 2.0])):
         with pytest.raises(sl.ArgumentError):
-            F.update_entries(*wrong)
+            F.change_entries(None, *wrong)
     with pytest.raises(sl.ArgumentError):
         F.rank_update(unit, [1.0, 2.0])
     with pytest.raises(sl.ArgumentError):
-        F.change(A)
+        F.change_entries(A)
     with pytest.raises(sl.ArgumentError):
-        F.change(A, grid(19))
+        F.change_entries(A, was=grid(19))
+    for wrong in (dict(was=A), dict(A=A, was=A, columns=[5])):
+        with pytest.raises(sl.ArgumentError, match="was needs"):
+            F.change_entries(**wrong)
     assert np.array_equal(F.solve(b), x)
 
 
-def test_restrict_is_the_factor_of_a_submatrix(A, F):
+def test_a_submatrix_has_the_factor_of_its_rows(A, F):
     rows = np.random.default_rng(0).permutation(400)[:150]
-    G, b = F.restrict(A, rows), right_hand_sides(150)
+    G, b = F.submatrix(A, rows), right_hand_sides(150)
     assert G.n == 150
     assert np.allclose(G.solve(b), np.linalg.solve(A.toarray()[np.ix_(rows, rows)], b))
     with pytest.raises(sl.StateError):
@@ -246,7 +251,7 @@ def test_restrict_is_the_factor_of_a_submatrix(A, F):
         G.refactor(A[rows][:, rows])
     for wrong in ([1, 1], [400], None):
         with pytest.raises(sl.ArgumentError):
-            F.restrict(A, wrong)
+            F.submatrix(A, wrong)
 
 
 def test_edits_follow_a_mesh():

@@ -84,7 +84,7 @@ def test_objects():
     x = P.solve(None, [1j, 2.0])
     assert np.allclose(x[[3, 9]], [1j, 2.0])
     assert np.allclose(np.delete(DENSE @ x, [3, 9]), 0, atol=1e-12)
-    G = F.restrict(H, [9, 3, 5, 4])
+    G = F.submatrix(H, [9, 3, 5, 4])
     assert np.allclose(G.solve(b), np.linalg.solve(DENSE[np.ix_([9, 3, 5, 4], [9, 3, 5, 4])], b))
     again = pickle.loads(pickle.dumps(F))
     assert np.array_equal(again.solve(vectors(N)), F.solve(vectors(N)))
@@ -105,7 +105,7 @@ def test_refusals():
     with pytest.raises(sl.ArgumentError):
         sl.Factor(diagonal)
     with pytest.raises(sl.UnsupportedError):
-        F.change(H, H)
+        F.change_entries(H, was=H)
     with pytest.raises(sl.ArgumentError):
         F.local([N], [1.0], [0])
     with pytest.raises(TypeError):

@@ -27,7 +27,8 @@ def test_rows_are_fixed(count, form):
               "upper": sp.triu(A, format="csr")}[form]
     D = sl.FixedRows(stored, ROWS)
     assert len(D) == 5 and D.n == 400
-    assert np.array_equal(D.free, np.setdiff1d(np.arange(400), ROWS)) and "5 of them" in repr(D)
+    assert np.array_equal(D.free_rows, np.setdiff1d(np.arange(400), ROWS))
+    assert "5 of them" in repr(D)
     values, b = right_hand_sides(5, count), right_hand_sides(400, count)
     for g, c in ((values, b), (np.asfortranarray(values), b), (values, np.asfortranarray(b))):
         assert np.allclose(D.solve(g, c), exact(A, ROWS, g, c))
@@ -42,7 +43,7 @@ def test_none_and_all():
     A, b = grid(6), np.ones(36)
     assert np.allclose(A @ sl.FixedRows(A, []).solve(np.zeros(0), b), b)
     D = sl.FixedRows(A, np.arange(36)[::-1])
-    assert np.array_equal(D.solve(np.arange(36.0)), np.arange(36.0)[::-1]) and D.free.size == 0
+    assert np.array_equal(D.solve(np.arange(36.0)), np.arange(36.0)[::-1]) and D.free_rows.size == 0
 
 
 def test_complex_matrices():
@@ -53,7 +54,7 @@ def test_complex_matrices():
     D, b = sl.FixedRows(H, [3, 30], threads=2), right_hand_sides(36, 2) * (1 + 2j)
     values = np.array([[1j, 2.0], [0.5, 1.0]])
     assert np.allclose(D.solve(values, b), exact(H, [3, 30], values, b))
-    assert D.free.size == 34
+    assert D.free_rows.size == 34
 
 
 def test_a_chosen_triangle_stays_chosen():
@@ -107,6 +108,6 @@ def test_what_is_wrong_gives_a_signal():
     D.refactor(L)
     assert np.allclose(D.solve([1.0, 2.0], b), x)
     D.close()
-    for call in (lambda: D.solve([1.0, 2.0]), lambda: D.refactor(L), lambda: D.free):
+    for call in (lambda: D.solve([1.0, 2.0]), lambda: D.refactor(L), lambda: D.free_rows):
         with pytest.raises(sl.StateError, match="closed"):
             call()

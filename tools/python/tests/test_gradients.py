@@ -100,36 +100,36 @@ def test_entries_of_the_inverse(turn, part, monkeypatch):
         wanted = -2.0 * (inverse @ G @ inverse)[stored.rows, stored.columns] * stored.weights
         for solved in (128, 0):
             monkeypatch.setattr(gradients, "_SOLVED", solved)
-            got = gradients.entries_gradient(F, A, rows, columns, g)
+            got = gradients.pairs_gradient(F, A, rows, columns, g)
             assert np.allclose(got, wanted, rtol=1e-12, atol=1e-13 * abs(wanted).max(initial=1))
     monkeypatch.setattr(gradients, "_SOLVED", 0)
     if part is sp.tril and turn == "tocsc":
         g = np.sin(np.arange(16.0))
         wanted = differences(lambda d: g @ sl.Factor(with_values(A, d)).diagonal(), A.data)
-        got = gradients.entries_gradient(F, A, range(16), range(16), g)
+        got = gradients.pairs_gradient(F, A, range(16), range(16), g)
         assert np.allclose(got, wanted, rtol=1e-7, atol=1e-7)
 
 
 def test_variances_of_many_rows(A, F):
     """More columns than are solved at once, both ways."""
     g = np.cos(np.arange(400.0))
-    twins = gradients.entries_gradient(F, A, range(400), range(400), g)
-    few = [gradients.entries_gradient(F, A, rows, rows, g[rows])
+    twins = gradients.pairs_gradient(F, A, range(400), range(400), g)
+    few = [gradients.pairs_gradient(F, A, rows, rows, g[rows])
            for rows in np.split(np.arange(400), 4)]
     assert np.allclose(twins, sum(few), rtol=1e-12, atol=1e-13)
     for size in (1e300, 1e-300):  # neither overflows nor underflows on its way
-        got = gradients.entries_gradient(F, A, range(400), range(400), size * g)
+        got = gradients.pairs_gradient(F, A, range(400), range(400), size * g)
         assert np.allclose(got / size, twins, rtol=1e-12, atol=1e-13)
     for wrong in (np.nan, np.inf):
         with pytest.raises(sl.NotFiniteError, match="in g, row 7"):
-            gradients.entries_gradient(F, A, range(400), range(400),
-                                       np.where(np.arange(400) == 7, wrong, g))
+            gradients.pairs_gradient(F, A, range(400), range(400),
+                                     np.where(np.arange(400) == 7, wrong, g))
     H = A - 5.0 * sp.identity(400)  # indefinite
     indefinite = sl.Factor(H)
     assert min(indefinite.inertia[:2]) > 20
     inverse = np.linalg.inv(H.toarray())
     wanted = -((inverse * g) @ inverse)[gradients.Stored(H).rows, gradients.Stored(H).columns]
-    got = gradients.entries_gradient(indefinite, H, range(400), range(400), g)
+    got = gradients.pairs_gradient(indefinite, H, range(400), range(400), g)
     assert np.allclose(got, wanted, rtol=1e-8, atol=1e-8 * abs(wanted).max())
 
 
@@ -145,7 +145,7 @@ def test_entries_of_a_regularized_inverse(monkeypatch):
     inverse, g = np.linalg.inv(A.toarray() + np.diag(E)), np.cos(np.arange(16.0))
     stored = gradients.Stored(A)
     wanted = -2.0 * stored.weights * ((inverse * g) @ inverse)[stored.rows, stored.columns]
-    got = gradients.entries_gradient(F, A, range(16), range(16), g)
+    got = gradients.pairs_gradient(F, A, range(16), range(16), g)
     assert np.allclose(got, wanted, rtol=1e-11, atol=1e-12 * abs(wanted).max())
 
 
@@ -155,12 +155,12 @@ def test_entries_that_are_refused():
     for rows, columns, g in (([1], [1, 2], [1.0]), ([16], [1], [1.0]), ([-1], [1], [1.0]),
                              (None, None, np.ones(16)), ([1], [1], [1.0, 2.0])):
         with pytest.raises(sl.ArgumentError):
-            gradients.entries_gradient(F, A, rows, columns, g)
+            gradients.pairs_gradient(F, A, rows, columns, g)
     L = grid(4, 0.0)
     with pytest.raises(sl.UnsupportedError, match="pseudo-inverse"):
-        gradients.entries_gradient(sl.Factor(L, null_pivots="skip"), L, [1], [1], [1.0])
+        gradients.pairs_gradient(sl.Factor(L, null_pivots="skip"), L, [1], [1], [1.0])
     with pytest.raises(sl.NotFiniteError):
-        gradients.entries_gradient(F, A, [1], [1], [np.nan])
+        gradients.pairs_gradient(F, A, [1], [1], [np.nan])
 
 
 def test_what_has_no_such_derivative_is_refused():

@@ -30,11 +30,11 @@ def test_callbacks(A):
     assert np.allclose(lam, differences(lambda b: g @ system.solve(values, b), b), atol=1e-7)
     two = system.products(np.stack([lam, x], 1), np.stack([x, b], 1))
     assert np.allclose(two, system.products(lam, x) + system.products(x, b))
-    got = 2.0 * system.stored.weights * system.entries(values, system.stored.rows,
-                                                       system.stored.columns)
+    got = 2.0 * system.stored.weights * system.pairs(values, system.stored.rows,
+                                                     system.stored.columns)
     assert np.allclose(got, differences(system.logdet, values), atol=1e-7)
-    got = system.entries_gradient(values, ROWS, COLUMNS, g[:3])
-    wanted = differences(lambda v: g[:3] @ system.entries(v, ROWS, COLUMNS), values)
+    got = system.pairs_gradient(values, ROWS, COLUMNS, g[:3])
+    wanted = differences(lambda v: g[:3] @ system.pairs(v, ROWS, COLUMNS), values)
     assert np.allclose(got, wanted, atol=1e-7)
     factor = system.factor(values)
     assert system.factor(values.copy()) is factor and system.factor(2 * values) is not factor
@@ -43,11 +43,11 @@ def test_callbacks(A):
 def test_jax(A, capsys):
     jax = pytest.importorskip("jax", reason="jax is not installed")
     from jax.test_util import check_grads
-    solve, logdet, entries = jax_solve.functions(jax_solve.System(A))
+    solve, logdet, pairs = jax_solve.functions(jax_solve.System(A))
     b = np.cos(np.arange(9.0))
     check_grads(solve, (A.data, b), order=2, modes=["rev"])
     check_grads(logdet, (A.data,), order=2, modes=["rev"])
-    check_grads(lambda values: entries(values, ROWS, COLUMNS), (A.data,), order=1, modes=["rev"])
+    check_grads(lambda values: pairs(values, ROWS, COLUMNS), (A.data,), order=1, modes=["rev"])
     assert np.allclose(grid(3) @ jax.jit(solve)(A.data, b), b)
     jax_solve.main()
     words = capsys.readouterr().out.split()

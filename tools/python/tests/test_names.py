@@ -1,4 +1,4 @@
-"""Errors name calls and options of this package, and nothing of C."""
+"""Methods have the words of C; errors name calls and options of this package, and nothing of C."""
 import os
 import re
 
@@ -7,7 +7,7 @@ import pytest
 import scipy.sparse as sp
 
 import sparse_local as sl
-from sparse_local import _names
+from sparse_local import _library, _names
 from sparse_local._options import ANALYSIS, NUMBERS
 from systems import grid
 
@@ -32,17 +32,20 @@ def texts():
 
 
 def of_c():
-    """What is not to be in a sentence: names with a prefix, and fields of structs in one."""
+    """What is not to be in a sentence: names with a prefix, and fields of structs in one, but for
+    calls of this package."""
     text = header()
     fields = set()
     for body in re.findall(r"typedef struct sl_\w+ \{(.*?)\} sl_\w+;", text, re.DOTALL):
         fields.update(re.findall(r"\b(\w+)(?:\[\d+\])?[;,)]", body))
     assert {"p", "i", "x", "null_vector_count", "n_rows", "ordering", "weak"} <= fields
     own = set(ANALYSIS) | set(NUMBERS)
+    calls = ["%s[.]%s" % (kind.__name__, name) for kind in (sl.Factor, sl.Constraints, sl.Region)
+             for name in dir(kind) if not name.startswith("_")]
     alone = sorted(name for name in fields if "_" in name and name not in own)
     return re.compile(r"\b(?:sl|SL|sli|SLI)_|\bMETIS_|\boptions\.|\bNULL\b|\bsize_t\b|\bld[a-z]\b|"
-                      r"(?<![\w.])\w+\.(?:%s)\b|\b(?:%s)\b" %
-                      ("|".join(sorted(fields)), "|".join(alone)))
+                      r"(?<![\w.])(?!(?:%s)\b)\w+\.(?:%s)\b|\b(?:%s)\b" %
+                      ("|".join(calls), "|".join(sorted(fields)), "|".join(alone)))
 
 
 def test_no_text_of_the_library_keeps_a_name_of_c():
@@ -69,6 +72,22 @@ def test_each_name_is_used():
     found = "\n".join(texts())
     assert [name for name in _names.NAMES if name not in found and
             name not in ("A.i", "options.ordering", "options.purpose", "options.signs")] == []
+
+
+def test_methods_have_the_words_of_c():
+    """sl_factor_rank_update is Factor.rank_update, and so all calls but those that a constructor,
+    Factor.edit, Sum or no user's method makes."""
+    kinds = {"factor": sl.Factor, "inverse": sl.Factor, "symbolic": sl.Analysis, "plan": sl.Plan,
+             "region": sl.Region, "selected": sl.Selected, "constraints": sl.Constraints,
+             "fixed": sl.FixedRows}
+    other = set()
+    for name in _library._CALLS:
+        kind, _, word = name.partition("_")
+        if kind in kinds and word != "create" and not hasattr(kinds[kind], word):
+            other.add(name)
+    assert other == {"symbolic_create_pivoted", "symbolic_edit", "symbolic_scatter",
+                     "factor_create_sums", "factor_refactor_sums", "factor_defects",
+                     "factor_pseudo_inverse"}
 
 
 def wrong_uses(tmp_path):
@@ -120,7 +139,7 @@ def wrong_uses(tmp_path):
     with open(file, "rb") as whole, open(str(tmp_path / "short.slf"), "wb") as out:
         out.write(whole.read()[:-64])
     fixed = sl.FixedRows(A, [0, 5])
-    restricted = F.restrict(A, [1, 2, 3])
+    part = F.submatrix(A, [1, 2, 3])
     total = sl.Sum([A, sp.identity(n, format="csc")])
     V = sp.csc_matrix(([1.0, 1.0], [0, n - 1], [0, 2]), shape=(n, 1))
     return {
@@ -198,8 +217,8 @@ def wrong_uses(tmp_path):
         "pin NaN": lambda: F.constraints([3]).solve(None, [NAN]),
         "pins with a plan in a region": lambda: changed.constraints([3]).solve(
             [1.0], [1.0], plan=in_region),
-        "equality NaN": lambda: F.constraints().add_equality([1, 2], [1.0, NAN]),
-        "dependent equality": lambda: F.constraints([1, 2]).add_equality([1, 2], [1.0, 1.0]),
+        "equality NaN": lambda: F.constraints().add([1, 2], [1.0, NAN]),
+        "dependent equality": lambda: F.constraints([1, 2]).add([1, 2], [1.0, 1.0]),
         "release": lambda: F.constraints([1]).release([4]),
         "release twice": lambda: F.constraints([1, 2]).release([1, 1]),
         "pins with both signs": lambda: sl.Factor(indefinite).constraints([1]),
@@ -209,26 +228,26 @@ def wrong_uses(tmp_path):
         "refactor with another size": lambda: F.refactor(grid(5)),
         "refactor with a NaN": lambda: sl.Factor(A).refactor(A * NAN),
         "refactor with zeros": lambda: sl.Factor(A).refactor(0 * A),
-        "update out of range": lambda: F.update(A, [n]),
-        "change out of range": lambda: F.change(A, rows=[n], columns=[0], deltas=[1.0]),
-        "change by NaN": lambda: F.change(A, rows=[0], columns=[0], deltas=[NAN]),
-        "change of no entry": lambda: F.update_entries([0], [n - 1], [1.0]),
-        "change to singular": lambda: sl.Factor(sp.identity(n, format="csc")).update_entries(
-            [0], [0], [-1.0]),
+        "columns out of range": lambda: F.change_entries(A, columns=[n]),
+        "change out of range": lambda: F.change_entries(A, rows=[n], columns=[0], deltas=[1.0]),
+        "change by NaN": lambda: F.change_entries(A, rows=[0], columns=[0], deltas=[NAN]),
+        "change of no entry": lambda: F.change_entries(None, [0], [n - 1], [1.0]),
+        "change to singular": lambda: sl.Factor(sp.identity(n, format="csc")).change_entries(
+            None, [0], [0], [-1.0]),
         "rank update of no entry": lambda: F.rank_update(V),
         "rank update of another size": lambda: F.rank_update(sp.csc_matrix((n + 1, 1))),
         "rank update by NaN": lambda: F.rank_update(V * NAN),
         "rank update, sigma": lambda: F.rank_update(V[:, :0], [1.0]),
-        "rank update with null pivots": lambda: S.update_entries([0], [0], [1.0]),
-        "rank update with 2x2 pivots": lambda: pivoted.update_entries([0], [1], [1.0]),
-        "rank update in float": lambda: sl.Factor(A, storage="float").update_entries(
-            [0], [0], [1.0]),
-        "restrict": lambda: F.restrict(A, [1, 1]),
-        "restrict, range": lambda: F.restrict(A, [n]),
-        "restrict twice": lambda: restricted.restrict(A[1:4, 1:4], [0]),
-        "refactor a restriction": lambda: restricted.refactor(A[1:4, 1:4]),
-        "save a restriction": lambda: restricted.save(str(tmp_path / "r.slf")),
-        "restriction with 2x2 pivots": lambda: pivoted.restrict(kkt, [0, 1]),
+        "rank update with null pivots": lambda: S.change_entries(None, [0], [0], [1.0]),
+        "rank update with 2x2 pivots": lambda: pivoted.change_entries(None, [0], [1], [1.0]),
+        "rank update in float": lambda: sl.Factor(A, storage="float").change_entries(
+            None, [0], [0], [1.0]),
+        "submatrix": lambda: F.submatrix(A, [1, 1]),
+        "submatrix, range": lambda: F.submatrix(A, [n]),
+        "submatrix twice": lambda: part.submatrix(A[1:4, 1:4], [0]),
+        "refactor a submatrix": lambda: part.refactor(A[1:4, 1:4]),
+        "save a submatrix": lambda: part.save(str(tmp_path / "r.slf")),
+        "submatrix with 2x2 pivots": lambda: pivoted.submatrix(kkt, [0, 1]),
         "edit": lambda: F.edit(A, A, np.zeros(n, int)),
         "edit out of range": lambda: F.edit(A, A, np.full(n, n)),
         "edit with 2x2 pivots": lambda: pivoted.edit(kkt, kkt, [0, 1, 2]),
@@ -241,12 +260,12 @@ def wrong_uses(tmp_path):
         "guarantee in float": lambda: sl.Factor(A, storage="float").certify(A, "guaranteed"),
         "refine, steps": lambda: F.refine(A, np.ones(n), np.ones(n), -1),
         "refine NaN": lambda: F.refine(A, nan_b, np.ones(n)),
-        "refine locally": lambda: regularized.plan([0], [1]).solve_refined([1.0]),
-        "refine locally, steps": lambda: F.plan([0], [1]).solve_refined([1.0], -1),
+        "refine locally": lambda: regularized.plan([0], [1]).solve_regularized([1.0]),
+        "refine locally, steps": lambda: F.plan([0], [1]).solve_regularized([1.0], -1),
         "entry that is not kept": lambda: sl.Selected(F, [0]).entries([0], [n - 1]),
         "selected out of range": lambda: sl.Selected(F, [n]),
         "selected of mapped": lambda: sl.load_set(
-            saved_set(F, tmp_path), map=True).selected.update(),
+            saved_set(F, tmp_path), map=True).selected.refactor(),
         "saved set out of date": lambda: sl.save_set(str(tmp_path / "x.slf"), changed, selected),
         "saved region out of date": lambda: sl.save_set(
             str(tmp_path / "x.slf"), changed, None, [region]),
@@ -257,7 +276,7 @@ def wrong_uses(tmp_path):
         "closed": lambda: closed.solve(np.ones(n)),
         "closed plan": lambda: closed_plan.solve([1.0]),
         "mapped": lambda: mapped.refactor(A),
-        "mapped, changed": lambda: mapped.update_entries([0], [0], [1.0]),
+        "mapped, changed": lambda: mapped.change_entries(None, [0], [0], [1.0]),
         "no file": lambda: sl.Factor.load(str(tmp_path / "none.slf")),
         "no folder": lambda: F.save(str(tmp_path / "none" / "f.slf")),
         "a folder": lambda: sl.Factor.load(str(tmp_path)),

@@ -46,9 +46,10 @@ def test_values_that_are_not_symmetric(turn):
     B[3, 2] *= 1 + 1e-6
     B = getattr(B, turn)()
     F, b = sl.Factor(getattr(A, turn)()), np.ones(36)
-    calls = (lambda: sl.Factor(B), lambda: F.refactor(B), lambda: F.update(B, [2]),
-             lambda: F.change(B, A), lambda: F.refine(B, b, b), lambda: F.rcond(B),
-             lambda: F.certify(B), lambda: F.restrict(B, [1]), lambda: sl.analyze(A).factor(B),
+    calls = (lambda: sl.Factor(B), lambda: F.refactor(B),
+             lambda: F.change_entries(B, columns=[2]), lambda: F.change_entries(B, was=A),
+             lambda: F.refine(B, b, b), lambda: F.rcond(B),
+             lambda: F.certify(B), lambda: F.submatrix(B, [1]), lambda: sl.analyze(A).factor(B),
              lambda: sl.Sum([B]))
     for call in calls:
         with pytest.raises(sl.PatternError):
@@ -104,7 +105,7 @@ def test_a_pattern_that_changed():
     more = A.copy().tolil()
     more[0, 20] = more[20, 0] = 1e-3
     for B in (moved, fewer.tocsc(), more.tocsc(), grid(7), grid(5), sp.identity(36, format="csc")):
-        for call in (F.refactor, lambda B: F.update(B, [1]), F.rcond, F.certify,
+        for call in (F.refactor, lambda B: F.change_entries(B, columns=[1]), F.rcond, F.certify,
                      sl.analyze(A).factor, lambda B: F.refine(B, b, b)):
             with pytest.raises(sl.PatternError):
                 call(B)
@@ -113,19 +114,20 @@ def test_a_pattern_that_changed():
 
 
 def test_columns_that_were_not_named():
-    """update and change trust their sets; a refinement of 0 steps tells."""
+    """change_entries trusts its sets; a refinement of 0 steps tells."""
     A, b = grid(40), np.ones(1600)
     first, last = sl.Factor(A).perm[[0, -1]]
     B = A.tolil()
     B[first, first] += 1.0
     B[last, last] += 1.0
     B, named = B.tocsc(), [last]
-    for change in (lambda F: F.update(B, named), lambda F: F.update_entries(named, named, [1.0]),
-                   lambda F: F.change(B, rows=named, columns=named, deltas=[1.0])):
+    for change in (lambda F: F.change_entries(B, columns=named),
+                   lambda F: F.change_entries(None, named, named, [1.0]),
+                   lambda F: F.change_entries(B, rows=named, columns=named, deltas=[1.0])):
         F = sl.Factor(A)
         change(F)
         assert F.refine(B, F.solve(b), b, 0)[1] > 1e-3
-    F = sl.Factor(A).update(B, [first, last])
+    F = sl.Factor(A).change_entries(B, columns=[first, last])
     assert F.refine(B, F.solve(b), b, 0)[1] < 1e-14
 
 
@@ -137,7 +139,7 @@ def test_values_that_are_not_finite(value, form):
         B = A.copy()
         B.data[at] = value
         for call in (lambda: sl.Factor(B), lambda: sl.cholesky(B), lambda: sl.Factor(A).refactor(B),
-                     lambda: sl.Factor(A).update(B, np.arange(36)),
+                     lambda: sl.Factor(A).change_entries(B, columns=np.arange(36)),
                      lambda: sl.Factor(B, null_pivots="skip")):
             with pytest.raises(sl.NotFiniteError):
                 call()
@@ -184,11 +186,12 @@ def test_use_after_a_failed_factorization():
     with pytest.raises(sl.PivotError):
         F.refactor(bad)
     uses = (lambda: F.solve(b), lambda: F.local([3], [1.0], [4]), lambda: plan.solve([1.0]),
-            lambda: inside.solve([1.0]), R.update, Z.update, lambda: P.solve(b, [1.0]), P.update,
-            F.diagonal, lambda: F.block([1], [2]), lambda: F.pairs([1], [2]), F.logdet, F.sample,
-            F.lower, F.factors, F.to_bytes, lambda: F.refine(A, b, b), lambda: F.rcond(A),
-            lambda: F.certify(A), lambda: F.solve_part("L", b), lambda: F.update(A, [1]),
-            lambda: F.restrict(A, [1]), lambda: F.update_entries([1], [1], [1.0]),
+            lambda: inside.solve([1.0]), R.refactor, Z.refactor, lambda: P.solve(b, [1.0]),
+            P.refactor, F.diagonal, lambda: F.block([1], [2]), lambda: F.pairs([1], [2]), F.logdet,
+            F.sample, F.lower, F.factors, F.to_bytes, lambda: F.refine(A, b, b), lambda: F.rcond(A),
+            lambda: F.certify(A), lambda: F.solve_part("L", b),
+            lambda: F.change_entries(A, columns=[1]),
+            lambda: F.submatrix(A, [1]), lambda: F.change_entries(None, [1], [1], [1.0]),
             lambda: F.region([1]), lambda: sl.Selected(F), lambda: F.constraints([1]),
             lambda: F.edit(A, A, np.arange(36)), lambda: sl.solve_batch([(F, b)]),
             lambda: F.bilinear([1], [1.0], [1], [1.0]))
@@ -206,11 +209,13 @@ def test_a_closed_object():
     d = Z.diagonal()
     F.close()
     F.close()
-    uses = (lambda: F.solve(b), lambda: plan.solve([1.0]), R.update, Z.update, F.diagonal, F.logdet,
-            lambda: P.solve(b, [1.0]), lambda: P.add([1]), lambda: P.release([0]), P.update,
-            lambda: F.refactor(A), lambda: F.save("never"), lambda: F.plan([1], [2]).solve([1.0]),
-            lambda: F.stats, lambda: F.inertia, lambda: repr(F), lambda: F.update(A, [1]),
-            lambda: F.change(A, A), lambda: F.constraints([1]),
+    uses = (lambda: F.solve(b), lambda: plan.solve([1.0]), R.refactor, Z.refactor, F.diagonal,
+            F.logdet, lambda: P.solve(b, [1.0]), lambda: P.add([1]), lambda: P.release([0]),
+            P.refactor, lambda: F.refactor(A), lambda: F.save("never"),
+            lambda: F.plan([1], [2]).solve([1.0]), lambda: F.stats, lambda: F.inertia,
+            lambda: repr(F),
+            lambda: F.change_entries(A, columns=[1]), lambda: F.change_entries(A, was=A),
+            lambda: F.constraints([1]),
             lambda: sl.solve_batch([(plan, [1.0])]))
     for use in uses:
         with pytest.raises(sl.StateError, match="closed"):

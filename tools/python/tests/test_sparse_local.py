@@ -138,7 +138,7 @@ def test_regions(A, F):
     F.refactor(2 * A)
     with pytest.raises(sl.StateError):
         plan.solve(b)
-    R.update()
+    R.refactor()
     assert np.allclose(plan.solve(b), F.local(rows, b, rows), rtol=1e-12)
 
 
@@ -159,7 +159,7 @@ def test_a_selected_inverse_has_entries_of_the_inverse(A, F):
         Z.diagonal([400])
     F.refactor(2 * A)
     assert np.allclose(Z.diagonal(), inverse.diagonal())  # of the old numbers
-    Z.update()
+    Z.refactor()
     assert np.allclose(Z.diagonal(), inverse.diagonal() / 2)
 
 
@@ -180,13 +180,13 @@ def test_saved_sets_have_the_same_bits(A, tmp_path, mapped, storage):
     assert np.array_equal(G.solve(whole), F.solve(whole))
     assert np.array_equal(sl.Factor.load(path).solve(whole), F.solve(whole))
     if mapped:
-        for change in (Y.update, regions[0].update, lambda: G.refactor(A)):
+        for change in (Y.refactor, regions[0].refactor, lambda: G.refactor(A)):
             with pytest.raises(sl.StateError):
                 change()
     else:
         G.refactor(2 * A)
-        Y.update()
-        regions[0].update()
+        Y.refactor()
+        regions[0].refactor()
         assert np.allclose(Y.diagonal(), Z.diagonal() / 2)
         assert np.allclose(G.plan(rows, rows, region=regions[0]).solve(b), x / 2)
     del G
@@ -272,7 +272,7 @@ def test_regularized_pivots_are_refined():
     plan = F.plan(None, None)
     wanted = np.linalg.solve(K.toarray(), b)
     for right, x in ((b, wanted), (np.asfortranarray(b), wanted), (b[:, 0], wanted[:, 0])):
-        refined, error = plan.solve_refined(right)
+        refined, error = plan.solve_regularized(right)
         assert refined.shape == x.shape and np.allclose(refined, x) and error < 1e-8
     rows, shifts = sl.Factor(grid(5, 0.0), null_pivots="skip").pivot_rows()
     assert rows.size == 1 and shifts[0] == 0.0
@@ -322,17 +322,20 @@ def test_samples_have_the_covariance_of_the_inverse():
 
 # ---- changes, files ----
 
-def test_update(A, F):
+def test_changes_of_columns(A, F):
     B = A.copy()
     for p in range(B.indptr[5], B.indptr[6]):
         if B.indices[p] == 5:
             B.data[p] += 2
-    assert F.update(B, [5]) is F
+    assert F.change_entries(B, columns=[5]) is F
+    assert F.changed["method"] == "reach"
     b = right_hand_sides(400)
     assert np.allclose(B @ F.solve(b), b)
-    assert np.array_equal(F.update(A).solve(b), sl.Factor(A).solve(b))
+    assert np.array_equal(F.refactor(A).solve(b), sl.Factor(A).solve(b))
     with pytest.raises(sl.ArgumentError):
-        F.update(A, [400])
+        F.change_entries(A, columns=[400])
+    with pytest.raises(sl.ArgumentError):
+        F.change_entries(columns=[5])
 
 
 @pytest.mark.parametrize("is_mapped", [False, True])

@@ -17,7 +17,8 @@ for step in range(20):
     i, j, w = edges.row[e], edges.col[e], 0.5 * edges.data[e]  # half as much again
     v = sp.csc_matrix(([1.0, -1.0], ([i, j], [0, 0])), shape=(F.n, 1))
     B = A + w * (v @ v.T)
-    methods.append(F.change(B, A))  # finds the four entries, and the cheapest way
+    F.change_entries(B, was=A)  # finds the four entries, and the cheapest way
+    methods.append(F.changed["method"])
     A = B
     plan.solve([1.0])
 assert np.allclose(plan.solve([1.0]), sl.Factor(A).local([820], [1.0], [100]))

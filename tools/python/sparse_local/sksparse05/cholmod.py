@@ -178,7 +178,7 @@ class CholeskyFactor:
         columns = np.union1d(columns, rows[is_right])
         with translated(self):
             try:
-                self._f._numbers.update(low, columns.astype(np.int32))
+                self._f._numbers.change_entries(low, columns=columns.astype(np.int32))
                 self._f._low = low
                 self._f._judge()
             except (ours.PivotError, ours.StateError):
