@@ -87,7 +87,7 @@ count_tests() {
 
 # Runs a step of the recipe on the side; its output goes to a file of the side.
 step() {
-    "$1" >"$dir/$1.out" 2>"$dir/$1.err" </dev/null && return 0
+    ("$1") >"$dir/$1.out" 2>"$dir/$1.err" </dev/null && return 0 # in a shell of its own: it may cd
     echo "    $1 with $side: FAILED, see $dir/$1.out and .err"
     tail -n "${TAIL:-10}" "$dir/$1.err" | sed 's/^/        /'
     return 1
