@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6e0f4ab92b95a2e7
+ * FNV-1a of the lines after this comment, without the license: c1ca82eb1595c8a7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -5827,6 +5827,13 @@ typedef struct sli_pattern {
 
 #define SLI_ENTRY 2
 
+static void sli_order_natural(sl_int n, sl_int *perm) {
+  sl_int k;
+  for (k = 0; k < n; k++) {
+    perm[k] = k;
+  }
+}
+
 typedef struct sli_graph {
   sl_int n;
   sl_off *begin;
@@ -10379,13 +10386,6 @@ static sl_status sli_order_cuts(const sli_order_job *job, const sl_int *sizes, s
 }
 
 /* src/impl/ordering/order.h: the elimination order: reduce the graph, describe it, choose, order, expand */
-
-static void sli_order_natural(sl_int n, sl_int *perm) {
-  sl_int k;
-  for (k = 0; k < n; k++) {
-    perm[k] = k;
-  }
-}
 
 static sl_status sli_order_given(const sli_order_job *job) {
   const sl_int *given = job->opt->perm, n = job->A->n_cols;

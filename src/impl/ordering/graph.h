@@ -15,6 +15,13 @@ typedef struct sli_pattern {
 
 #define SLI_ENTRY 2
 
+static void sli_order_natural(sl_int n, sl_int *perm) {
+    sl_int k;
+    for (k = 0; k < n; k++) {
+        perm[k] = k;
+    }
+}
+
 /* The adjacency graph of a symmetric matrix: the full pattern without its diagonal. An entry given
  * twice is an edge given twice. */
 typedef struct sli_graph {

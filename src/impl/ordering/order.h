@@ -11,13 +11,6 @@
 #include "../matrix/submatrix.h"
 #include "../base/status.h"
 
-static void sli_order_natural(sl_int n, sl_int *perm) {
-    sl_int k;
-    for (k = 0; k < n; k++) {
-        perm[k] = k;
-    }
-}
-
 /* Copies a given order after a check that it is a permutation. */
 static sl_status sli_order_given(const sli_order_job *job) {
     const sl_int *given = job->opt->perm, n = job->A->n_cols;
