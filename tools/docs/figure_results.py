@@ -177,6 +177,11 @@ def optimization_rows(optimized, plain):
             for system in seconds[0]]
 
 
+def raster_rows(text):
+    """The steps of raster.py, as it writes them."""
+    return columns(text, ["step", "pairs"], ["seconds", "processor_s", "peak", "bytes"])
+
+
 def measured(rows_of, machine, *sources):
     return sources, machine + ".machine.txt", rows_of
 
@@ -191,6 +196,7 @@ RESULTS = {
     "osqp": measured(osqp_rows, "osqp", "theirs.1e-3.1.csv", "theirs.1e-3.2.csv",
                      "ours.1e-3.1.csv", "ours.1e-3.2.csv"),
     "eigenpairs": measured(eigen_rows, "eigenpairs", "eigenpairs.csv", "eigenpairs_errors.csv"),
+    "raster": measured(raster_rows, "raster", "raster.csv"),
     "sizes": measured(size_rows, "sizes", "sizes.csv"),
     "optimization": measured(optimization_rows, "O2/cold", "O2/cold.csv", "O0/cold.csv"),
 }

@@ -248,6 +248,50 @@ def plain_factor(file):
     return "%.1f to %.1f times as long" % (ratios[0], ratios[-1])
 
 
+# ---- a raster ----
+
+RASTER_STEPS = [("analysis", "order and structure of L"), ("killed factor", "factor, killed"),
+                ("factor", "factor, again, saved"), ("dask", "{pairs:,} pairs, Dask"),
+                ("mpi", "the same, MPI"), ("map", "checks, currents, picture")]
+
+
+def bytes_text(text):
+    size = float(text) / 1e9
+    if not size:
+        return ""
+    return "%s GB" % digits(size) if size >= 0.1 else "%s MB" % digits(1e3 * size)
+
+
+def long_text(seconds):
+    for unit, size in (("hours", 3600.0), ("minutes", 60.0)):
+        if seconds > 3 * size:
+            return "%s %s" % (digits(seconds / size), unit)
+    return time_text(seconds)
+
+
+def raster_table(file):
+    rows = []
+    for step, label in RASTER_STEPS:
+        row = file.where(step=step)
+        rows.append([label.format(pairs=int(row["pairs"])), long_text(float(row["seconds"])),
+                     long_text(float(row["processor_s"])), bytes_text(row["peak"]),
+                     bytes_text(row["bytes"])])
+    head = ["", "time", "of processors", "in memory", "file"]
+    return rows_text(head, rows, "---|--:|--:|--:|--:|")
+
+
+def pair_seconds(step):
+    def seconds(file):
+        row = file.where(step=step)
+        return float(row["processor_s"]) / int(row["pairs"])
+    return seconds
+
+
+def raster_load(file):
+    return " while the machine had other work (load %.0f)" % float(file.keys["load"]) if float(
+        file.keys["load"]) > MOST_LOAD else ""
+
+
 TEXTS = {
     ("peers", "vertex share"): vertex_share,
     ("peers", "short table"): short_table,
@@ -263,6 +307,11 @@ TEXTS = {
     ("peers_kkt", "table"): kkt_table,
     ("osqp", "table"): osqp_table,
     ("eigenpairs", "table"): eigen_table,
+    ("raster", "load"): raster_load,
+    ("raster", "table"): raster_table,
+    ("raster", "pair"): lambda file: time_text(pair_seconds("tasks of 1e8 pairs")(file)),
+    ("raster", "many"): lambda file: long_text(1e8 * pair_seconds("tasks of 1e8 pairs")(file)),
+    ("raster", "random"): lambda file: time_text(pair_seconds("random pairs")(file)),
     ("sizes", "core"): size("core"),
     ("sizes", "all"): size("all"),
     ("sizes", "no singular"): size_less("SL_NO_SINGULAR"),

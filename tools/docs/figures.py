@@ -7,8 +7,8 @@
 A file begins with lines `# key: value`: date, commit, machine, instruction set, compiler. A page
 has a figure between <!-- NAME.csv: FIGURE --> and <!-- end -->, where FIGURE names what
 figure_texts.py makes of the file. manual.py calls problems(): make docs fails if a page has another
-text than the files give, or a time, or a ratio of times, outside of such marks. Only README.md and
-speed.md may have marks.
+text than the files give, or a time, or a ratio of times, outside of such marks. Only README.md,
+speed.md and raster.md may have marks.
 """
 import csv
 import glob
@@ -21,7 +21,7 @@ from figure_texts import TEXTS
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 FOLDER = "tools/docs/figures"
-MARKED = ["README.md", "tools/docs/speed.md"]
+MARKED = ["README.md", "tools/docs/speed.md", "tools/docs/do/raster.md"]
 KEYS = ["date", "commit", "machine", "instruction set", "compiler"]
 MARKS = re.compile(r"(<!-- (\w+)\.csv: ([\w ]+) -->)(.*?)(<!-- end -->)", re.S)
 
