@@ -32,7 +32,8 @@ def files():
     found = set(listed.stdout.split())
     if listed.returncode != 0 or not found:
         for folder, folders, names in os.walk(ROOT):
-            folders[:] = [name for name in folders if name not in ("build", ".git")]
+            if folder == ROOT:
+                folders[:] = [name for name in folders if name not in ("build", ".git")]
             found.update(os.path.relpath(os.path.join(folder, name), ROOT) for name in names)
     return {name for name in found if os.path.exists(os.path.join(ROOT, name))}
 
