@@ -84,6 +84,8 @@ static inline void cmocka_compare(uintmax_t a, uintmax_t b, int equal, const cha
 }
 
 #define fail() _fail(__FILE__, __LINE__)
+/* ... format, and its arguments */
+#define fail_msg(...) (print_error(__VA_ARGS__), print_error("\n"), fail())
 #define skip() cmocka_leave(CMOCKA_SKIPPED)
 #define assert_true(a) cmocka_check(!!(a), #a, __FILE__, __LINE__)
 #define assert_false(a) cmocka_check(!(a), "not " #a, __FILE__, __LINE__)
