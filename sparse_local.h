@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c1ca82eb1595c8a7
+ * FNV-1a of the lines after this comment, without the license: 2793a2f3a99aea35
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,14 +47,14 @@
  *  23709 impl/ change: a factor that follows changes of its matrix
  *  25979 impl/ constraints: rows held at values, on a factor that stays
  *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30043 impl/ fixed: rows fixed at given values
- *  30599 impl/ io: files that are replaced only when they are complete
- *  30818 impl/ files: Matrix Market files, 64-bit indices
- *  31374 impl/ save: factors in files
- *  33345 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34025 impl/ complex: complex Hermitian systems over real factors
- *  34493 impl/ packs: the tables through which the core calls packs
- *  34918 impl/ templates: the header includes them from itself, once for each instruction set
+ *  30045 impl/ fixed: rows fixed at given values
+ *  30601 impl/ io: files that are replaced only when they are complete
+ *  30820 impl/ files: Matrix Market files, 64-bit indices
+ *  31376 impl/ save: factors in files
+ *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34027 impl/ complex: complex Hermitian systems over real factors
+ *  34495 impl/ packs: the tables through which the core calls packs
+ *  34920 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -28187,6 +28187,8 @@ static sl_status sli_submatrix_numbers(sl_factor *G, const sl_factor *F, sli_res
     G->history.marks = NULL;
     if (sli_submatrix_check(F, r, &failure) == SL_OK) {
       (void)sli_factor_eliminate(G, &source, &failure);
+    } else {
+      SLI_ZERO(G->D, G->S->n);
     }
     G->work.copied = NULL;
     status = sli_factor_done(G, &source, &failure, started, stats);

@@ -67,6 +67,8 @@ static sl_status sli_submatrix_numbers(sl_factor *G, const sl_factor *F, sli_res
         G->history.marks = NULL; /* no later factorization compares its entries */
         if (sli_submatrix_check(F, r, &failure) == SL_OK) {
             (void)sli_factor_eliminate(G, &source, &failure);
+        } else {
+            SLI_ZERO(G->D, G->S->n); /* the report counts pivots */
         }
         G->work.copied = NULL;
         status = sli_factor_done(G, &source, &failure, started, stats);
