@@ -70,10 +70,15 @@ def raster_of(options):
     return cells
 
 
+def flows(cells, x):
+    """The currents from each cell to the next one of its row, and to the one below it."""
+    right, below = workers.links(cells)
+    return right[:, :-1] * -np.diff(x, axis=1), below[:-1] * -np.diff(x, axis=0)
+
+
 def times_matrix(cells, x):
     """A x, by the links of the cells instead of the matrix that was factored."""
-    right, below = workers.links(cells)
-    flow, down = right[:, :-1] * -np.diff(x, axis=1), below[:-1] * -np.diff(x, axis=0)
+    flow, down = flows(cells, x)
     y = np.zeros(x.shape)
     y[0, 0] = cells[0, 0] * x[0, 0]
     y[:, :-1] += flow
@@ -85,9 +90,7 @@ def times_matrix(cells, x):
 
 def current(cells, x):
     """The current through each cell: half of what its links carry."""
-    right, below = workers.links(cells)
-    flow = np.abs(right[:, :-1] * np.diff(x, axis=1))
-    down = np.abs(below[:-1] * np.diff(x, axis=0))
+    flow, down = (np.abs(part) for part in flows(cells, x))
     through = np.zeros(x.shape)
     through[:, :-1] += flow
     through[:, 1:] += flow
