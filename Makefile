@@ -243,8 +243,9 @@ $(B)/tests/replay_%: $(B)/obj/tests/fuzz/fuzz_%.o $(B)/obj/tests/fuzz/replay.o $
 	$(call say,LINK)
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
-# Of the tools the tests of a fixed list need the list of a folder's files at most.
+# Of the tools the tests of a fixed list need the list of a folder's files at most. FEW=yes says that CORE_TESTS is such a list.
 FEW_TOOLS = TOOLS=tools/io/dataset.c PAGE= REPLAYS=
+WITH_TOOLS = $(if $(FEW),$(FEW_TOOLS) TOOL_TESTS=)
 
 # What the variants below share: they differ in B, compiler and flags. PROGRAM is sparse-local, where a script tests it.
 PROGRAM =
@@ -264,13 +265,13 @@ quick: deps sparse_local.h ## what to run after each edit: the header without SI
 	@+$(SUB_MAKE) run-tests B=build/quick OPT='-O0 -DSL_NO_SIMD' $(FEW_TOOLS) TEST_PROGRAMS='$(QUICK:%=build/quick/tests/core/test_%)'
 
 test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
-	@+$(SUB_MAKE) run-tests B=build/clang CC=clang
+	@+$(SUB_MAKE) run-tests B=build/clang CC=clang $(WITH_TOOLS)
 
 test-cxx: deps deps-cxx sparse_local.h ## the header's tests, over bodies compiled as C++11
 	@+$(SUB_MAKE) run-tests B=build/cxx TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/cxx/tests/%)' LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
 
 test-no-metis: deps sparse_local.h ## the header's tests, built without SL_METIS and not linked with METIS
-	@+$(SUB_MAKE) run-tests B=build/no_metis TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/no_metis/tests/%)' METIS= LIBS='$(FILE_LIBS) -lm'
+	@+$(SUB_MAKE) run-tests B=build/no_metis $(WITH_TOOLS) TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/no_metis/tests/%)' METIS= LIBS='$(FILE_LIBS) -lm'
 
 # those of the kernels, and those of ways that are chosen by what kernels cost
 NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected test_constraints_refused test_constraints_trust test_constraints_sets \
