@@ -32,6 +32,7 @@ seconds=$1
 shift
 targets=${*:-$rare $nightly $often}
 fuzzers=$(for f in tests/fuzz/fuzz_*.c; do [ ! -f "$f" ] || basename "$f" .c | sed s/fuzz_//; done)
+all="$targets $(echo "$fuzzers" | sed 's/^./fuzz-&/')" # rows of the table
 mkdir -p "$dir"
 
 # ---- the code, and the machine ----
@@ -118,7 +119,7 @@ table() {
     echo "Of commit $commit:"
     printf '\n| target | passed | failed | skipped | commit | date | machine | seconds | remark |\n'
     echo '|---|---|---|---|---|---|---|---|---|'
-    for target in $targets $(echo "$fuzzers" | sed 's/^./fuzz-&/'); do
+    for target in $all; do
         row "$target" | awk -F "$tab" -v target="$target" -v code="$code" '
             { found = 1 }
             {
@@ -226,7 +227,7 @@ rm -f "$dir"/*.row
 $make test-page
 table
 missing=
-for target in $targets $(echo "$fuzzers" | sed 's/^./fuzz-&/'); do
+for target in $all; do
     has_passed "$target" || missing="$missing $target"
 done
 [ -z "$missing" ] || echo "failed, or not run:$missing"
