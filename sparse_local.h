@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2793a2f3a99aea35
+ * FNV-1a of the lines after this comment, without the license: e00046fee48f447f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7257,7 +7257,7 @@ static void sli_subgraph_corridor(sli_subgraph *sub, const sli_labelling *in, sl
       }
       sub->weight[k] = sli_level_weight(in->g, v);
     }
-    memset(sub->layer + first, layer, (size_t)(last - first));
+    memset(sub->layer + first, layer, (size_t)last - (size_t)first);
   }
   memcpy(sub->home, sub->side, (size_t)sub->n);
 }
