@@ -2,7 +2,7 @@
 import numpy as np
 
 from . import _arrays as arrays
-from ._errors import ArgumentError
+from ._errors import ArgumentError, UnsupportedError
 from ._library import new_options
 from ._scratch import set_scratch
 from ._threads import set_threads
@@ -71,7 +71,7 @@ class Chosen:
             count = options.null_vector_count = np.shape(null_vector)[1]
             null_vector = np.ravel(null_vector, order="F")
         if self._is_complex and (mass is not None or null_vector is not None):
-            raise ArgumentError("mass and null_vector are options of real matrices")
+            raise UnsupportedError("mass and null_vector of a complex matrix")
         self._array("mass", mass, np.float64)
         self._array("null_vector", null_vector, np.float64, count)
         if signs is not None and self._is_complex:

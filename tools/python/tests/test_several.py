@@ -143,8 +143,8 @@ def test_sparse_right_hand_sides(A, F):
 
 
 def test_matrices_from_triplets():
-    T = sl.from_triplets([0, 1, 1, 1], [0, 0, 1, 1], [2.0, -1.0, 1.0, 1.0], 2)
+    T = sl.from_triplets(2, [0, 1, 1, 1], [0, 0, 1, 1], [2.0, -1.0, 1.0, 1.0])
     assert np.allclose(sl.Factor(T).solve([1.0, 0.0]), [2 / 3, 1 / 3])
     for wrong in (([2], [0], [1.0]), ([0, 1], [0], [1.0]), ([0], [0], [1.0, 2.0])):
         with pytest.raises(sl.ArgumentError):
-            sl.from_triplets(*wrong, 2)
+            sl.from_triplets(2, *wrong)
