@@ -13,9 +13,9 @@ async function use(bytes: ArrayBuffer): Promise<number> {
     P.solve([1], b, F);
     Q.add([1]).release([0]).refactor();
     F.refactor(A).rankUpdate({p: [0, 1], i: [0], x: [1]}, null).changeEntries([0], [0], [1]);
-    const y: Float64Array = Q.solve([1], {plan: P}), growth: number = F.stats.growth;
+    const y: Float64Array = Q.solve(null, [1], {plan: P}), growth: number = F.stats.growth;
     try {
-        F.localSolve([0], [1], [1]);
+        F.localSolve([0], [1], [1], [0]);
     } catch (error) {
         if (error instanceof SparseLocalError && error.status === "PIVOT") return error.row;
     }
