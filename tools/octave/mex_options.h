@@ -65,7 +65,7 @@ static int set_option(sl_options *o, int *pivoted, const char *name, const mxArr
     } else if (strcmp(name, "threads") == 0) {
         o->threads.count = whole_in(name, value);
     } else if (strcmp(name, "triangle") == 0) {
-        o->triangle = (sl_triangle)word_in(name, value, "both|lower|upper");
+        o->triangle = (sl_triangle)word_in(name, value, "auto|lower|upper");
     } else if (strcmp(name, "ordering") == 0) {
         o->ordering = orderings[word_in(name, value, "nd|mindeg|natural")];
     } else if (strcmp(name, "perm") == 0) {
