@@ -2,6 +2,10 @@
  * statuses; compiled twice, also with -fno-exceptions */
 #include "tools/adapters/sparse_local.hpp"
 
+#ifdef SL_RESULT
+#error "a macro of the header's own is left to programs"
+#endif
+
 #include "check.hpp"
 
 #include <cmath>

@@ -131,21 +131,38 @@ private:
 /* Files with and without exceptions differ in what follows, and so do its names for the linker. */
 #ifdef SL_NO_EXCEPTIONS
 inline namespace returning {
-inline Status finish(const Status &status) {
-    return status;
-}
 #else
 inline namespace throwing {
-inline Status finish(const Status &status) {
-    if (!status.ok()) throw Error(status);
-    return status;
-}
 #endif
 
-/* Of a vector b whose size does not fit. */
-inline Status wrong_size() {
-    return Status(SL_ERR_ARGUMENT, "the size of b is not rows times nrhs, or nrhs is below 0");
-}
+class Work;
+
+namespace detail {
+/* What the classes share and programs do not use. */
+class Calls {
+protected:
+    static Status finish(const Status &status) {
+#ifndef SL_NO_EXCEPTIONS
+        if (!status.ok()) throw Error(status);
+#endif
+        return status;
+    }
+    /* Of a vector b whose size does not fit. */
+    static Status wrong_size() {
+        return Status(SL_ERR_ARGUMENT, "the size of b is not rows times nrhs, or nrhs is below 0");
+    }
+    static inline sl_work *work_of(const Work *work);
+    /* The library refuses a NULL, which an empty vector may have as its data. */
+    static double *data_of(std::vector<double> &v) {
+        static double nothing = 0;
+        return v.empty() ? &nothing : v.data();
+    }
+    static const double *data_of(const std::vector<double> &v) {
+        static const double nothing = 0;
+        return v.empty() ? &nothing : v.data();
+    }
+};
+} // namespace detail
 
 /** Options with their defaults; the fields are those of sl_options. */
 struct Options : sl_options {
@@ -197,7 +214,7 @@ private:
 };
 
 /** Owner of one object of the library. */
-template <class T, void (*release)(T *)> class Handle {
+template <class T, void (*release)(T *)> class Handle : protected detail::Calls {
 public:
     Handle() noexcept : object_(nullptr) {
     }
@@ -257,19 +274,8 @@ public:
     }
 };
 
-inline sl_work *work_of(Work *work) {
+inline sl_work *detail::Calls::work_of(const Work *work) {
     return work ? work->get() : nullptr;
-}
-
-/* The library refuses a NULL, which an empty vector may have as its data. */
-inline double *data_of(std::vector<double> &v) {
-    static double nothing = 0;
-    return v.empty() ? &nothing : v.data();
-}
-
-inline const double *data_of(const std::vector<double> &v) {
-    static const double nothing = 0;
-    return v.empty() ? &nothing : v.data();
 }
 
 /** A sparse matrix that the library owns. */
@@ -612,5 +618,7 @@ private:
 
 } // inline namespace
 } // namespace sl
+
+#undef SL_RESULT
 
 #endif
