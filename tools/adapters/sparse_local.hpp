@@ -443,7 +443,7 @@ public:
     }
 
     /** Finds eta, the largest relative error of any solve in the energy norm, for
-     *  Plan::solve_bounded; A is the factored matrix. */
+     *  Plan::solve_bounded; A is the factored matrix. EXPERIMENTAL, as in C. */
     SL_RESULT certify(double &eta, const sl_csc &A, sl_certainty certainty = SL_ESTIMATED,
                       Work *work = nullptr) {
         sl_stats stats = sl_stats();
@@ -558,7 +558,7 @@ public:
         return finish(status);
     }
     /** The same, and a bound for the error of each number; F is certified. scales keeps what the
-     *  bounds need of the plan and the numbers of F: an empty vector at first. */
+     *  bounds need of the plan and the numbers of F: an empty vector at first. EXPERIMENTAL. */
     SL_RESULT solve_bounded(std::vector<double> &x, std::vector<double> &bounds, const Factor &F,
                             const std::vector<double> &b, std::vector<double> &scales,
                             sl_int nrhs = 1, Work *work = nullptr) const {

@@ -47,6 +47,7 @@ class Error(Exception):
     column: int | None
     value: float
     cause: str
+    failed: int | None
     def __init__(self, text: str, row: int | None = ..., column: int | None = ...,
                  value: float = ..., advice: str | None = ...) -> None: ...
 

@@ -117,7 +117,7 @@ class Plan:
         return dense.X
 
     def solve_bounded(self, B):
-        """x as solve returns it, and a bound for the error of each number.
+        """x as solve returns it, and a bound for the error of each number. EXPERIMENTAL, as in C.
 
         The factor has been certified: Factor.certify. Of complex numbers the bounds are those of
         their real and imaginary parts. The first call computes what the bounds need

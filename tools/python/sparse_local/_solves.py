@@ -179,7 +179,7 @@ class Solves:
 
     def certify(self, A, *, certainty="estimated"):
         """Finds eta, the largest relative error of any solve in the energy norm of A, which
-        Plan.solve_bounded needs; A is the factored matrix. Returns eta.
+        Plan.solve_bounded needs; A is the factored matrix. Returns eta. EXPERIMENTAL, as in C.
 
         certainty  'estimated': from errors that are measured, 15 to 45 full solves; 'guaranteed': a
                    proved bound, much larger, 7 to 10 factorizations.

@@ -86,6 +86,9 @@ def test_sums_name_what_failed():
     with pytest.raises(sl.PivotError) as caught:
         S.refactor([F, G], [[1, 1], [0, 1]])
     assert caught.value.failed == 1 and F.solve(np.ones(36)).shape == (36,)
+    with pytest.raises(sl.ArgumentError) as caught:
+        F.solve(np.ones(35))
+    assert caught.value.failed is None
     with pytest.raises(sl.StateError):
         G.solve(np.ones(36))
     with pytest.raises(sl.StateError) as caught:
