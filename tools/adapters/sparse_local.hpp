@@ -494,12 +494,14 @@ class Region : public Handle<sl_region, sl_region_free> {
 public:
     Region() = default;
 #ifndef SL_NO_EXCEPTIONS
-    Region(const Factor &F, const Rows &set, const sl_options *options = nullptr) {
-        create(F, set, options);
+    Region(const Factor &F, const Rows &set, const Selected *Z = nullptr,
+           const sl_options *options = nullptr) {
+        create(F, set, Z, options);
     }
 #endif
-    SL_RESULT create(const Factor &F, const Rows &set, const sl_options *options = nullptr,
-                     const Selected *Z = nullptr) {
+    /** Z: NULL, or a selected inverse, which is used if it has all entries that are needed. */
+    SL_RESULT create(const Factor &F, const Rows &set, const Selected *Z = nullptr,
+                     const sl_options *options = nullptr) {
         sl_region *made = nullptr;
         sl_stats stats;
         sl_status status = sl_region_create(&made, F.get(), set.data(), set.count(),
@@ -521,9 +523,10 @@ public:
     Plan() : nb_(0), nx_(0) {
     }
 #ifndef SL_NO_EXCEPTIONS
-    Plan(const Symbolic &S, const Rows &bset, const Rows &xset, const Region *region = nullptr)
+    Plan(const Symbolic &S, const Rows &bset, const Rows &xset, const Region *region = nullptr,
+         const sl_options *options = nullptr)
         : Plan() {
-        create(S, bset, xset, region);
+        create(S, bset, xset, region, options);
     }
 #endif
     /** region: NULL, or one that the plan keeps. */

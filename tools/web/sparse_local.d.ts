@@ -119,7 +119,7 @@ export class Plan implements Owned {
     readonly factor: Factor;
     readonly nb: number;
     readonly nx: number;
-    solve(b: Numbers): Float64Array;
+    solve(b: Numbers, x?: null, factor?: Factor): Float64Array;
     solve<X extends Result>(b: Numbers, x: X, factor?: Factor): X;
     dispose(): void;
     [Symbol.dispose](): void;
