@@ -387,6 +387,7 @@ test("arguments that the library would read beyond their ends", () => {
         [() => sl.factor(A, {triangle: "both"}), /triangle: both is none of auto, lower, upper$/],
         [() => sl.factor(A, {ordering: "metis"}), /ordering: metis is none of nd,/],
         [() => sl.factor(A, {ordering: "given"}), /needs perm/],
+        [() => sl.factor(A, {ordering: "nd", perm: g.rows}), /perm no other ordering/],
         [() => sl.factor(A, {mass: short}), /mass: 63/],
         [() => sl.fromTriplets(2, [0, 1], [0], [1, 1]), /columns: 2 numbers/],
         [() => sl.float64(-1), /length: -1/],

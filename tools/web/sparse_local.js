@@ -281,7 +281,9 @@ function setOptions(heap, options, n) {
     const skips = choice(nullPivots, options.nullPivots, "nullPivots") === 1;
     if (skips && options.definite) throw new RangeError('options: definite excludes nullPivots "skip"');
     const given = options.perm !== undefined && options.ordering === undefined ? "given" : options.ordering;
-    if (given === "given" && !options.perm) throw new RangeError('options: ordering "given" needs perm');
+    if ((given === "given") !== Boolean(options.perm)) {
+        throw new RangeError('options: ordering "given" needs perm, and perm no other ordering');
+    }
     heap.exports.web_options(choice(triangles, options.triangle, "triangle"),
         choice(orderings, given, "ordering"), heap.put(options.perm, Int32Array, n, "perm"),
         options.blockSize ?? 0, choice(purposes, options.purpose, "purpose"),

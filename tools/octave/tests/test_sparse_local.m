@@ -297,6 +297,8 @@ function options()
     refused('inaccurate', 'growth', @() sparse_local(A, 'growth_limit', 0.5));
     refused('argument', 'ordering is one of', @() sparse_local(A, 'ordering', 'amd'));
     refused('argument', 'ordering is one of', @() sparse_local(A, 'ordering', 3));
+    refused('argument', 'excludes', @() sparse_local(A, 'ordering', 'nd', 'perm', n:-1:1));
+    refused('argument', 'excludes', @() sparse_local(A, 'perm', n:-1:1, 'ordering', 'nd'));
     refused('argument', 'auto|lower|upper', @() sparse_local(A, 'triangle', 'both'));
     refused('argument', 'one number', @() sparse_local(A, 'growth_limit', [1, 2]));
     refused('argument', 'whole number', @() sparse_local(A, 'threads', 1.5));

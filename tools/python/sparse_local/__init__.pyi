@@ -72,8 +72,9 @@ class ReadOnlyError(StateError): ...
 class Analysis:
     n: int
     edited: dict[str, Any]
-    def __init__(self, A: _Sparse, *, triangle: _Triangle | None = ..., ordering: _Ordering = ...,
-                 perm: ArrayLike | None = ..., block_size: int = ..., purpose: _Purpose = ...,
+    def __init__(self, A: _Sparse, *, triangle: _Triangle | None = ...,
+                 ordering: _Ordering | None = ..., perm: ArrayLike | None = ...,
+                 block_size: int = ..., purpose: _Purpose = ...,
                  threads: int | None = ..., pivoted: bool = ...,
                  scratch: _Path | None = ...) -> None: ...
     def factor(self, A: _Sparse, *, null_pivots: _NullPivots = ..., null_tolerance: float = ...,
@@ -91,7 +92,7 @@ class Analysis:
     @property
     def stats(self) -> dict[str, Any]: ...
 
-def analyze(A: _Sparse, *, triangle: _Triangle | None = ..., ordering: _Ordering = ...,
+def analyze(A: _Sparse, *, triangle: _Triangle | None = ..., ordering: _Ordering | None = ...,
             perm: ArrayLike | None = ..., block_size: int = ..., purpose: _Purpose = ...,
             threads: int | None = ..., pivoted: bool = ...,
             scratch: _Path | None = ...) -> Analysis: ...
@@ -101,8 +102,9 @@ class Factor:
     analysis: Analysis
     changed: dict[str, Any]
     reused: dict[str, Any]
-    def __init__(self, A: _Sparse, *, triangle: _Triangle | None = ..., ordering: _Ordering = ...,
-                 perm: ArrayLike | None = ..., block_size: int = ..., purpose: _Purpose = ...,
+    def __init__(self, A: _Sparse, *, triangle: _Triangle | None = ...,
+                 ordering: _Ordering | None = ..., perm: ArrayLike | None = ...,
+                 block_size: int = ..., purpose: _Purpose = ...,
                  threads: int | None = ..., pivoted: bool = ..., null_pivots: _NullPivots = ...,
                  null_tolerance: float = ..., mass: ArrayLike | None = ...,
                  null_vector: ArrayLike | None = ..., consistency_tolerance: float = ...,
@@ -164,7 +166,7 @@ class Factor:
                    triangle: _Triangle | None = ..., threads: int | None = ...,
                    is_complex: bool = ..., definite: bool = ...) -> Factor: ...
 
-def cholesky(A: _Sparse, *, triangle: _Triangle | None = ..., ordering: _Ordering = ...,
+def cholesky(A: _Sparse, *, triangle: _Triangle | None = ..., ordering: _Ordering | None = ...,
              perm: ArrayLike | None = ..., block_size: int = ..., purpose: _Purpose = ...,
              threads: int | None = ..., pivoted: bool = ..., null_pivots: _NullPivots = ...,
              null_tolerance: float = ..., mass: ArrayLike | None = ...,

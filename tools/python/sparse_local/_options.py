@@ -36,14 +36,16 @@ class Chosen:
         self._is_complex = is_complex
         self._kept = []
 
-    def analysis(self, ordering="nd", perm=None, block_size=0, purpose="many solves",
+    def analysis(self, ordering=None, perm=None, block_size=0, purpose="many solves",
                  threads=None, scratch=None):
         """Sets what the analysis reads."""
         options = self.options
-        options.ordering = choice(ORDERINGS, "given" if perm is not None else ordering, "ordering")
+        if ordering is None:
+            ordering = "nd" if perm is None else "given"
+        options.ordering = choice(ORDERINGS, ordering, "ordering")
         options.purpose = choice(_PURPOSES, purpose, "purpose")
-        if options.ordering == ORDERINGS["given"] and perm is None:
-            raise ArgumentError("ordering 'given' needs perm")
+        if (ordering == "given") != (perm is not None):
+            raise ArgumentError("ordering 'given' needs perm, and perm no other ordering")
         options.block_size = block_size
         if self._is_complex:
             options.block_size = 2 * max(block_size, 1)

@@ -176,6 +176,7 @@ def wrong_uses(tmp_path):
         "ordering": lambda: sl.Factor(A, ordering="no"),
         "METIS": lambda: sl.Factor(A, ordering="metis"),
         "given without perm": lambda: sl.Factor(A, ordering="given"),
+        "perm with another ordering": lambda: sl.Factor(A, ordering="nd", perm=np.arange(n)),
         "perm twice": lambda: sl.Factor(A, perm=np.zeros(n, int)),
         "perm out of range": lambda: sl.Factor(A, perm=np.arange(1, n + 1)),
         "purpose": lambda: sl.Factor(A, purpose="no"),

@@ -316,6 +316,6 @@ def test_options_that_are_not_numbers():
                   {"null_pivots": "skip", "mass": np.full(36, np.nan)},
                   {"null_pivots": "skip", "null_vector": np.full(36, np.inf)},
                   {"regularization": 1e-8, "signs": np.full(36, 3)}, {"block_size": 5},
-                  {"ordering": None}, {"purpose": 1}, {"storage": "half"}):
+                  {"ordering": 1}, {"purpose": 1}, {"storage": "half"}):
         with pytest.raises((sl.Error, TypeError)):
             sl.Factor(A, **wrong)
