@@ -315,6 +315,14 @@ test("statuses are those of the header, also in the types", () => {
     check(typed.join() === names.slice(1).join(), typed.join());
 });
 
+test("live pages call only what there is", () => { /* test-live runs them, where there is Chromium */
+    const page = readFileSync(new URL("../../tools/draw/view_live.js", import.meta.url), "utf8");
+    const S = sl.analyze(A), objects = {sparse: sl, analysis: S, heatFactor: F, poisson: F, pins: F.constraints()};
+    const calls = [...page.matchAll(/\b(sparse|analysis|heatFactor|poisson|pins)[.](\w+)\(/g)];
+    check(calls.length > 7);
+    for (const [call, object, name] of calls) check(typeof objects[object][name] === "function", call);
+});
+
 test("no sentence of the library keeps a name of C", () => {
     const texts = new Set([...header.matchAll(/"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*/g)]
         .map(([text]) => text.replace(/"\s*"|^"|"$/g, ""))

@@ -65,7 +65,7 @@ function system(t, withMass) { /* the lower triangle, with an entry for each edg
             diagonal[v] += w;
         }
     }
-    return sparse.matrix(n, rows, columns, entries);
+    return sparse.fromTriplets(n, rows, columns, entries);
 }
 
 const began = performance.now(), M = system(given.time, true), L = system(1, false);
