@@ -4,7 +4,7 @@ import ctypes
 import numpy as np
 
 from . import _arrays as arrays
-from ._errors import ArgumentError, PivotError
+from ._errors import ArgumentError, PivotError, UnsupportedError
 from ._fixed import FixedRows
 from ._library import Handle, Stats, as_dict, check, lib
 
@@ -29,7 +29,7 @@ class Constraints:
     Threads   add, release and refactor need the pins for themselves; solve does not.
     """
 
-    def __init__(self, factor, rows=(), A=None):
+    def __init__(self, factor, rows=(), *, A=None):
         pointer = ctypes.c_void_p()
         check(lib.sl_constraints_create(ctypes.byref(pointer), factor._pointer, None))
         self._factor, self._lib = factor, factor._lib
@@ -90,7 +90,7 @@ class Constraints:
 
     def _add_equality(self, rows, values):
         if self._factor._kind is arrays.COMPLEX:
-            raise ArgumentError("equalities are those of real matrices")
+            raise UnsupportedError("equalities on a factor of a complex matrix")
         keep, address, count = arrays.rows(rows)
         if keep is None or not count:
             raise ArgumentError("an equality needs rows")
@@ -154,7 +154,7 @@ class Constraints:
         self.stats = kept if self._is_many else self.stats
         return self
 
-    def solve(self, B, values, plan=None):
+    def solve(self, B, values, *, plan=None):
         """x with A x = B in all other rows and x = values in the pinned ones.
 
         B       (n,) or (n, count); None: zeros. With a plan its rows are those of the plan's bset.
@@ -185,7 +185,7 @@ class Constraints:
                 skips = factor.stats["factor"]["null"] > 0
                 self._fixed = FixedRows(self._A, self._rows,
                                         null_pivots="skip" if skips else "refuse")
-            return self._fixed.solve(held, B)
+            return self._fixed.solve(B, held)
         # column-major: pins take no rows of right-hand sides
         dense = kind.dense(np.asfortranarray(B), n_b, n_x)
         right = kind.dense(np.asfortranarray(held), self._count, self._count)

@@ -28,9 +28,9 @@ class Factor(Solves, Entries, Changes, Files):
               values are not copied. A matrix that stores both triangles has to be symmetric, which
               is checked.
     triangle  'lower' or 'upper': reads this triangle only, and ignores the other.
-    ordering  'nd' (nested dissection), 'mindeg' (approximate minimum degree), 'natural', 'given'
-              (perm), 'metis' if the library was compiled with METIS.
-    perm      n row numbers: perm[k] is pivot k; implies 'given'.
+    ordering  'nd' (nested dissection, the default), 'mindeg' (approximate minimum degree),
+              'natural', 'given' (perm), 'metis' if the library was compiled with METIS.
+    perm      n row numbers: perm[k] is pivot k; without ordering, or with 'given'.
     purpose   'many solves', or 'one factor': the first factor as early as possible.
     threads   number of threads for the analysis, factorizations and full solves; None: one. Results
               have the same bits for any number.
