@@ -112,6 +112,29 @@ void triangles_and_types() {
     CHECK((reads_one_triangle<Hermitian, Eigen::Upper>(1)));
 }
 
+/* A fixed order that loses rows is given up, one that does not is kept. */
+void orders_of_the_pattern() {
+    typedef Eigen::SparseMatrix<std::complex<double>> Hermitian;
+    sl::SimplicialLDLT<Sparse> ours(small_matrix(1e19, 1)), never;
+    CHECK(ours.info() == Eigen::Success && error_of_ones(ours, small_matrix(1e19, 1)) < 1e-14);
+    CHECK(ours.stats().symbolic.pairs == 1 && ours.analyses() == 2);
+    never.setPivoted(false).compute(small_matrix(1e19, 1));
+    CHECK(never.info() == Eigen::Success && never.analyses() == 1);
+    const Sparse whole = small_matrix(1e19, 1).selfadjointView<Eigen::Lower>();
+    const sl::SimplicialLDLT<Hermitian> hermitian(whole.cast<std::complex<double>>());
+    const Vector b = some_vector(3);
+    const Eigen::VectorXcd x = hermitian.solve(b.cast<std::complex<double>>());
+    CHECK(row_error(small_matrix(1e19, 1), x.real(), b) < 1e-14);
+    /* quasi-definite: pivots far apart, and no error */
+    Sparse A(3, 3);
+    A.setIdentity();
+    A.coeffRef(0, 0) = 1e10;
+    A.coeffRef(1, 1) = -1e-10;
+    A.coeffRef(2, 0) = 1;
+    CHECK(ours.compute(A).info() == Eigen::Success && ours.analyses() == 3);
+    CHECK(ours.stats().symbolic.pairs == 0 && error_of_ones(ours, A) < 1e-14);
+}
+
 /* What new pivots do not mend is no success, and a negative limit checks nothing. */
 void the_limit() {
     const Sparse first = small_matrix(0, 0.3), next = small_matrix(1e19, 1);
@@ -259,7 +282,7 @@ void random_values() {
             d[k] = std::pow(10, -8 + 27 * kkt.unit());
         }
         const Sparse first = kkt.matrix(before), A = kkt.matrix(d, seed % 2 ? 5 : 0);
-        sl::SimplicialLDLT<Sparse> ours, fresh;
+        sl::SimplicialLDLT<Sparse> ours, fresh, by_default(A);
         CHECK(ours.setPivoted().compute(first).info() == Eigen::Success);
         ours.compute(A);
         fresh.setPivoted().compute(A);
@@ -267,6 +290,7 @@ void random_values() {
         CHECK(ours.info() == Eigen::Success && fresh.info() == Eigen::Success);
         CHECK(error_in_scale(fresh, A, kkt) < 1e-10);
         CHECK(error_in_scale(ours, A, kkt) < 1e-7);
+        CHECK(by_default.info() == Eigen::Success && error_in_scale(by_default, A, kkt) < 1e-6);
         chosen_again += ours.analyses() > 1;
         count++;
     }
@@ -278,6 +302,7 @@ void random_values() {
 int main() {
     return check::run({{"values_that_grow_are_noticed", values_that_grow_are_noticed},
                        {"triangles_and_types", triangles_and_types},
+                       {"orders_of_the_pattern", orders_of_the_pattern},
                        {"the_limit", the_limit},
                        {"what_cannot_be_factored", what_cannot_be_factored},
                        {"interior_point", interior_point},
