@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d6af8793a1bce7c0
+ * FNV-1a of the lines after this comment, without the license: e505dbd99601a6a2
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -2733,7 +2733,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_c
  *
  *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
  *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
- *  keep the pivots: check stats.factor.growth, and analyze again if it is large.
+ *  keep the pivots: analyze again where sl_factor_refine measures large errors.
  *  SL_PIVOTS_SKIP_NULL gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of
  *  the inverse, selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
  *
