@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2793a2f3a99aea35
+ * FNV-1a of the lines after this comment, without the license: cabc91fddf6f296a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,19 +42,19 @@
  *  16930 impl/ singular: null spaces of semidefinite matrices
  *  18181 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
  *  20220 impl/ pivots: the order of the pivots by the values of a matrix
- *  20624 impl/ float: L in single precision
- *  20807 impl/ inverse: entries of the inverse, regions
- *  23709 impl/ change: a factor that follows changes of its matrix
- *  25979 impl/ constraints: rows held at values, on a factor that stays
- *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30045 impl/ fixed: rows fixed at given values
- *  30601 impl/ io: files that are replaced only when they are complete
- *  30820 impl/ files: Matrix Market files, 64-bit indices
- *  31376 impl/ save: factors in files
- *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34027 impl/ complex: complex Hermitian systems over real factors
- *  34495 impl/ packs: the tables through which the core calls packs
- *  34920 impl/ templates: the header includes them from itself, once for each instruction set
+ *  20626 impl/ float: L in single precision
+ *  20809 impl/ inverse: entries of the inverse, regions
+ *  23711 impl/ change: a factor that follows changes of its matrix
+ *  25981 impl/ constraints: rows held at values, on a factor that stays
+ *  27332 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30047 impl/ fixed: rows fixed at given values
+ *  30603 impl/ io: files that are replaced only when they are complete
+ *  30822 impl/ files: Matrix Market files, 64-bit indices
+ *  31378 impl/ save: factors in files
+ *  33349 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34029 impl/ complex: complex Hermitian systems over real factors
+ *  34497 impl/ packs: the tables through which the core calls packs
+ *  34922 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -20281,13 +20281,15 @@ static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *
     return 0;
   }
   other = sli_dense_column(f, t);
-  rest = sli_column_max(column, k, f->rows, c, t, &row);
-  rest_t = sli_column_max(other, k, f->rows, c, t, &row);
-  a = fabs(column[c] / e);
-  b = fabs(other[t] / e);
-  room = e * fabs(column[c] / e * (other[t] / e) - 1.0) / SLI_PIVOT_THRESHOLD;
+  rest = sli_column_max(column, k, f->rows, c, t, &row) / e;
+  rest_t = sli_column_max(other, k, f->rows, c, t, &row) / e;
+  a = column[c] / e;
+  b = other[t] / e;
+  room = fabs(a * b - 1.0) / SLI_PIVOT_THRESHOLD;
   *partner = t;
-  return b * rest + rest_t <= room && rest + a * rest_t <= room ? 2 : 0;
+  return room <= DBL_MAX && fabs(b) * rest + rest_t <= room && rest + fabs(a) * rest_t <= room
+         ? 2
+         : 0;
 }
 
 static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
