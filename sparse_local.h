@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e505dbd99601a6a2
+ * FNV-1a of the lines after this comment, without the license: ea5ed8442c350371
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,19 +42,19 @@
  *  16929 impl/ singular: null spaces of semidefinite matrices
  *  18180 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
  *  20219 impl/ pivots: the order of the pivots by the values of a matrix
- *  20623 impl/ float: L in single precision
- *  20806 impl/ inverse: entries of the inverse, regions
- *  23708 impl/ change: a factor that follows changes of its matrix
- *  25978 impl/ constraints: rows held at values, on a factor that stays
- *  27329 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30044 impl/ fixed: rows fixed at given values
- *  30600 impl/ io: files that are replaced only when they are complete
- *  30819 impl/ files: Matrix Market files, 64-bit indices
- *  31375 impl/ save: factors in files
- *  33346 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34026 impl/ complex: complex Hermitian systems over real factors
- *  34499 impl/ packs: the tables through which the core calls packs
- *  34921 impl/ templates: the header includes them from itself, once for each instruction set
+ *  20624 impl/ float: L in single precision
+ *  20807 impl/ inverse: entries of the inverse, regions
+ *  23709 impl/ change: a factor that follows changes of its matrix
+ *  25979 impl/ constraints: rows held at values, on a factor that stays
+ *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30045 impl/ fixed: rows fixed at given values
+ *  30601 impl/ io: files that are replaced only when they are complete
+ *  30820 impl/ files: Matrix Market files, 64-bit indices
+ *  31376 impl/ save: factors in files
+ *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34027 impl/ complex: complex Hermitian systems over real factors
+ *  34500 impl/ packs: the tables through which the core calls packs
+ *  34922 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -20280,13 +20280,14 @@ static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *
     return 0;
   }
   other = sli_dense_column(f, t);
-  rest = sli_column_max(column, k, f->rows, c, t, &row);
-  rest_t = sli_column_max(other, k, f->rows, c, t, &row);
-  a = fabs(column[c] / e);
-  b = fabs(other[t] / e);
-  room = e * fabs(column[c] / e * (other[t] / e) - 1.0) / SLI_PIVOT_THRESHOLD;
+  rest = sli_column_max(column, k, f->rows, c, t, &row) / e;
+  rest_t = sli_column_max(other, k, f->rows, c, t, &row) / e;
+  a = column[c] / e;
+  b = other[t] / e;
+  room = fabs(a * b - 1.0) / SLI_PIVOT_THRESHOLD;
   *partner = t;
-  return b * rest + rest_t <= room && rest + a * rest_t <= room ? 2 : 0;
+  return 2 * (room <= DBL_MAX && fabs(b) * rest + rest_t <= room &&
+      rest + fabs(a) * rest_t <= room);
 }
 
 static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
