@@ -16,10 +16,10 @@
 # First what continuous integration (.ci/run, .ci/nightly) does not run, or runs in part.
 rare='judge cov mcdc test-msan valgrind test-i386 test-i386-x87 test-armhf test-s390x test-exchange
     test-ppc64le test-riscv64 test-musl test-tcc test-mingw test-mingw-clang test-wasm
-    test-compilers check-promises test-view test-live test-pthreads test-no-singular
+    test-compilers check-promises test-pthreads test-no-singular
     test-python-build test-workers'
 nightly='test-aarch64 sanitize test-clang test-cxx test-openmp test-no-metis test-packs check-pair
-    test-clients test-npm test-wheels test-octave check-install'
+    test-clients test-npm test-view test-live test-wheels test-octave check-install'
 often='size check-packs test-no-simd test-stack test-shared abi test-examples docs test-home
     test-adapters test-python races test'
 file=tests/evidence.tsv
@@ -73,7 +73,7 @@ collect() {
         [ -f "$new" ] || continue
         target=$(basename "$new" .row)
         { [ ! -f "$file" ] || awk -F "$tab" -v target="$target" '$1 != target' "$file"
-          cat "$new"; } | sort >"$dir/all" && cat "$dir/all" >"$file"
+          cat "$new"; } | sort >"$dir/all" && mv "$dir/all" "$file" # whole, if this is killed
     done
 }
 
