@@ -56,10 +56,10 @@ namespace sl {
 /** Result of a call: its sl_status, and where the error is. */
 class Status {
 public:
-  /** Of a call without stats, whose error is the last one of this thread. */
-  Status(sl_status code = SL_OK) : code_(code) {
-      clear();
-      if (code != SL_OK) read(nullptr);
+    /** Of a call without stats, whose error is the last one of this thread. */
+    Status(sl_status code = SL_OK) : code_(code) {
+        clear();
+        if (code != SL_OK) read(nullptr);
     }
     Status(sl_status code, const sl_stats &stats) : code_(code), where_(stats.error) {
         if (code != SL_OK) read(&stats);
@@ -98,17 +98,17 @@ public:
     }
 
 private:
-  void clear() {
-      where_.row = where_.column = -1;
-      where_.line = -1;
-      where_.value = 0;
-      where_.what = nullptr;
-  }
-  void read(const sl_stats *stats) {
-      text_.resize(sl_error_text(nullptr, 0, code_, stats) + 1);
-      sl_error_text(&text_[0], text_.size(), code_, stats);
-      text_.pop_back();
-  }
+    void clear() {
+        where_.row = where_.column = -1;
+        where_.line = -1;
+        where_.value = 0;
+        where_.what = nullptr;
+    }
+    void read(const sl_stats *stats) {
+        text_.resize(sl_error_text(nullptr, 0, code_, stats) + 1);
+        sl_error_text(&text_[0], text_.size(), code_, stats);
+        text_.pop_back();
+    }
 
     sl_status code_;
     sl_error where_;
