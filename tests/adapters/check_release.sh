@@ -273,7 +273,8 @@ assert F.local([3], [1.0], [5])[0] == F.solve(b)[5]
 PYTHON
 check "the manual has its pages" \
     "empty \$(in_release manual) && tar -xzf *-manual.tar.gz && grep -q '<h1' manual/index.html &&
-     test -f manual/api.html -a -f manual/errors.html -a -f manual/search.js"
+     test -f manual/api.html -a -f manual/errors.html &&
+     node ../source/tests/web/test_search.mjs manual"
 check "the wheel for this system, with NumPy and SciPy of the system" \
     "empty && used \$(in_release manylinux) && $PYTHON -m pip install --quiet --no-index --no-deps \
          --root-user-action=ignore --disable-pip-version-check --only-binary=:all: \
