@@ -130,8 +130,8 @@ def constants_of(entry):
 
 
 def api_pages(root, manifest, uses, problems):
-    """The bodies of a page for each public file, the lines that lead to them, the page of each name,
-    and the place of each constant."""
+    """The bodies of a page for each public file, the lines that lead to them, the page of each
+    name, and the place of each constant."""
     pages, contents, page_of_name, constants = {}, [], {}, {}
     for file in re.findall(r'#include "public/(\w+)\.h"', manifest):
         page = "api-" + file
