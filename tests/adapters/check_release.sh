@@ -94,6 +94,9 @@ C
 check "sparse_local.hpp: a full and a local solve" \
     "empty sparse_local.h sparse_local.hpp && $CXX -std=c++11 -Wall -Wextra -Werror -O1 -I. \
          ../raii.cpp ../bodies/bodies.o -o raii && ./raii"
+check "sparse_local.hpp: the bodies in the same file" \
+    "empty sparse_local.h sparse_local.hpp && $CXX -std=c++11 -Wall -Wextra -Werror -O0 -I. \
+         -DSL_NO_SIMD -DSPARSE_LOCAL_IMPLEMENTATION ../raii.cpp -o raii && ./raii"
 cat >symmetric.c <<'C'
 #define SL_WITH_ALL
 #include "sparse_local.h"

@@ -196,8 +196,32 @@ private:
     sl_int count_;
 };
 
+/* Overloads, not an argument of Handle: calls are hidden if the bodies are in the same file, and
+ * so would be the classes. */
+inline void release(sl_work *object) {
+    sl_work_free(object);
+}
+inline void release(sl_matrix *object) {
+    sl_matrix_free(object);
+}
+inline void release(sl_symbolic *object) {
+    sl_symbolic_free(object);
+}
+inline void release(sl_factor *object) {
+    sl_factor_free(object);
+}
+inline void release(sl_selected *object) {
+    sl_selected_free(object);
+}
+inline void release(sl_region *object) {
+    sl_region_free(object);
+}
+inline void release(sl_plan *object) {
+    sl_plan_free(object);
+}
+
 /** Owner of one object of the library. */
-template <class T, void (*release)(T *)> class Handle {
+template <class T> class Handle {
 public:
     Handle() noexcept : object_(nullptr) {
     }
@@ -241,7 +265,7 @@ private:
 };
 
 /** Workspace of one thread. */
-class Work : public Handle<sl_work, sl_work_free> {
+class Work : public Handle<sl_work> {
 public:
     SL_RESULT create(const sl_options *options = nullptr) {
         sl_work *made = nullptr;
@@ -273,7 +297,7 @@ inline const double *data_of(const std::vector<double> &v) {
 }
 
 /** A sparse matrix that the library owns. */
-class Matrix : public Handle<sl_matrix, sl_matrix_free> {
+class Matrix : public Handle<sl_matrix> {
 public:
     SL_RESULT from_triplets(sl_int n_rows, sl_int n_cols, const std::vector<sl_int> &i,
                             const std::vector<sl_int> &j, const std::vector<double> &x,
@@ -308,7 +332,7 @@ public:
 };
 
 /** The analysis of a pattern. */
-class Symbolic : public Handle<sl_symbolic, sl_symbolic_free> {
+class Symbolic : public Handle<sl_symbolic> {
 public:
     Symbolic() = default;
 #ifndef SL_NO_EXCEPTIONS
@@ -342,7 +366,7 @@ public:
 };
 
 /** L and D of one matrix. */
-class Factor : public Handle<sl_factor, sl_factor_free> {
+class Factor : public Handle<sl_factor> {
 public:
     Factor() = default;
 #ifndef SL_NO_EXCEPTIONS
@@ -469,7 +493,7 @@ private:
 };
 
 /** The selected inverse. */
-class Selected : public Handle<sl_selected, sl_selected_free> {
+class Selected : public Handle<sl_selected> {
 public:
     SL_RESULT create(const Factor &F, const Rows &set, const sl_options *options = nullptr) {
         sl_selected *made = nullptr;
@@ -484,7 +508,7 @@ public:
 };
 
 /** A part of the matrix in which the cost of local solves does not depend on the whole. */
-class Region : public Handle<sl_region, sl_region_free> {
+class Region : public Handle<sl_region> {
 public:
     Region() = default;
 #ifndef SL_NO_EXCEPTIONS
@@ -510,7 +534,7 @@ public:
 };
 
 /** A prepared local solve. */
-class Plan : public Handle<sl_plan, sl_plan_free> {
+class Plan : public Handle<sl_plan> {
 public:
     Plan() : nb_(0), nx_(0) {
     }

@@ -48,7 +48,7 @@ echo "# What this release contains"
 [ -z "$HOME_URL" ] || printf '\nHome: %s\n' "$HOME_URL"
 cat <<'TEXT'
 
-For C take sparse_local.h, whose first page says how it is used; for meshes sparse_local_mesh.h, too.
+For C take sparse_local.h, whose first page says how it is used, and for meshes sparse_local_mesh.h.
 If you would rather compile a .c file, take the folder pair. For C++ and Eigen put the .hpp files
 beside sparse_local.h. The manual needs no network. The repository has all sources, the tests, and
 the packages for Octave and MATLAB.
