@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b15d86cd0ce8cf7d
+ * FNV-1a of the lines after this comment, without the license: 1d825374d4cfacf1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,10 +38,10 @@
  *   5821 impl/ ordering: fill-reducing orderings of a graph
  *  10596 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12829 impl/ factor: the numbers of L and D
- *  15418 impl/ solve: full and local solves
- *  16930 impl/ singular: null spaces of semidefinite matrices
- *  18181 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20220 impl/ pivots: the order of the pivots by the values of a matrix
+ *  15417 impl/ solve: full and local solves
+ *  16929 impl/ singular: null spaces of semidefinite matrices
+ *  18180 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20219 impl/ pivots: the order of the pivots by the values of a matrix
  *  20624 impl/ float: L in single precision
  *  20807 impl/ inverse: entries of the inverse, regions
  *  23709 impl/ change: a factor that follows changes of its matrix
@@ -53,8 +53,8 @@
  *  31376 impl/ save: factors in files
  *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
  *  34027 impl/ complex: complex Hermitian systems over real factors
- *  34495 impl/ packs: the tables through which the core calls packs
- *  34920 impl/ templates: the header includes them from itself, once for each instruction set
+ *  34500 impl/ packs: the tables through which the core calls packs
+ *  34922 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2733,7 +2733,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_c
  *
  *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
  *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
- *  keep the pivots: check stats.factor.growth, and analyze again if it is large.
+ *  keep the pivots: analyze again where sl_factor_refine measures large errors.
  *  SL_PIVOTS_SKIP_NULL gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of
  *  the inverse, selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
  *
@@ -7257,7 +7257,7 @@ static void sli_subgraph_corridor(sli_subgraph *sub, const sli_labelling *in, sl
       }
       sub->weight[k] = sli_level_weight(in->g, v);
     }
-    memset(sub->layer + first, layer, (size_t)(last - first));
+    memset(sub->layer + first, layer, (size_t)last - (size_t)first);
   }
   memcpy(sub->home, sub->side, (size_t)sub->n);
 }
@@ -13132,13 +13132,12 @@ struct sli_storage_type {
   sl_status (*store)(const sl_factor *F, const sli_front *f, sli_failure *failure);
   double (*entry)(const void *values, sl_off at);
   void (*entry_clear)(void *values, sl_off at);
-  int (*suits)(const sl_factor *F);
+  sl_status (*suits)(const sl_factor *F);
   void (*accepts)(const sl_symbolic *S, const sli_source *from, sli_failure *failure);
   int (*keeps)(const sl_int *rows, sl_int count, const sl_symbolic *S);
   const sli_storage_type *in_double;
 };
 
-static int sli_storage_is_known(sl_storage storage);
 static const sli_storage_type *sli_storage_type_of(sl_storage storage);
 static const char *sli_storage_needs(sl_storage storage);
 
@@ -13147,7 +13146,7 @@ SLI_INLINE int sli_is_float(const sl_factor *F) {
 }
 
 SLI_INLINE int sli_panel_is_copied(const sl_factor *F, sl_int s) {
-  return F->S->steps[s].width == 1 || sli_is_float(F);
+  return F->S->steps[s].width == 1 || F->type->store != NULL;
 }
 
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
@@ -13996,7 +13995,7 @@ static sli_task sli_job_draw(sli_job *job) {
       task.at = at;
       return task;
     }
-    if ((!sli_is_float(job->F) || job->F->work.panel_room == 0 || job->in_turn == -1 ||
+    if ((job->F->type->store == NULL || job->F->work.panel_room == 0 || job->in_turn == -1 ||
         job->in_turn == at) &&
         sli_top_draw(job, at, &task)) {
       job->in_turn = at;
@@ -14578,7 +14577,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     F->work.reciprocals = SLI_CUT(b, double, workers *SLI_FRONT_RECIPROCALS);
     F->work.failures = SLI_CUT(b, sli_failure, workers);
     sli_factor_layout_panels(F, b);
-    if (!sli_is_float(F)) {
+    if (F->type->store == NULL) {
       F->history.marks = SLI_CUT(b, uint64_t, S->n_supers);
     }
   } else {
@@ -14617,7 +14616,7 @@ static sl_status sli_factor_prepare(sl_factor *F, int is_new) {
       sli_schedule_work_layout(&w, &t, S->n_supers, plan.workers);
     }
     if (status == SL_OK) {
-      sli_schedule_fill(&plan, S, sli_is_float(F) ? SLI_PLAIN_PASSED : SLI_PLAIN, &w);
+      sli_schedule_fill(&plan, S, F->type->store != NULL ? SLI_PLAIN_PASSED : SLI_PLAIN, &w);
     }
   }
   SLI_LAYOUT(&b, &F->allocator, status) {
@@ -14656,7 +14655,8 @@ static sl_status sli_factor_prepare(sl_factor *F, int is_new) {
 static const char *sli_factor_choices_wrong(const sl_options *opt) {
   return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
          ? "options.method is not a value of sl_method"
-       : !sli_storage_is_known(opt->storage) ? "options.storage is not a value of sl_storage"
+       : sli_storage_needs(opt->storage) == NULL
+         ? "options.storage is not a value of sl_storage"
        : (unsigned)opt->pivots > (unsigned)SL_PIVOTS_SKIP_NULL
          ? "options.pivots is not a value of sl_pivots"
        : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"
@@ -14833,10 +14833,9 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
   status =
     S->is_pivoted && sli_skips_nulls(&draft)
       ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PIVOTS_SKIP_NULL with an analysis for 2x2 pivots")
-    : draft.type->suits != NULL && !draft.type->suits(&draft)
-      ? sli_refuse(SL_ERR_UNSUPPORTED,
-          "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized")
-      : sli_factor_use(&draft, opt);
+    : draft.type->suits != NULL ? draft.type->suits(&draft)
+                  : SL_OK;
+  status = status == SL_OK ? sli_factor_use(&draft, opt) : status;
   SLI_LAYOUT(&b, &a, status) {
     (void)sli_take(&b, 1, sizeof(sl_factor));
     sli_factor_layout(&draft, &b, draft.null.is_centered);
@@ -16006,7 +16005,7 @@ SLI_AT_LINE static int sli_reach_is_finite(const sl_factor *F, const sli_reach *
   const sl_symbolic *S = F->S;
   const sl_int *low = R->count == S->n_supers ? S->first_descendant : NULL;
   const sl_int least = S->stats.symbolic.components == 1 ? sli_max(R->count - 1, 0) : 0;
-  const sl_int last = F->type->storage == SL_STORAGE_COMPLEX ? 2 : 1;
+  const sl_int last = 1 + F->type->half;
   const sli_step *steps = R->steps;
   sl_int s;
   int is_finite = 1;
@@ -20281,13 +20280,14 @@ static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *
     return 0;
   }
   other = sli_dense_column(f, t);
-  rest = sli_column_max(column, k, f->rows, c, t, &row);
-  rest_t = sli_column_max(other, k, f->rows, c, t, &row);
-  a = fabs(column[c] / e);
-  b = fabs(other[t] / e);
-  room = e * fabs(column[c] / e * (other[t] / e) - 1.0) / SLI_PIVOT_THRESHOLD;
+  rest = sli_column_max(column, k, f->rows, c, t, &row) / e;
+  rest_t = sli_column_max(other, k, f->rows, c, t, &row) / e;
+  a = column[c] / e;
+  b = other[t] / e;
+  room = fabs(a * b - 1.0) / SLI_PIVOT_THRESHOLD;
   *partner = t;
-  return b * rest + rest_t <= room && rest + a * rest_t <= room ? 2 : 0;
+  return 2 * (room <= DBL_MAX && fabs(b) * rest + rest_t <= room &&
+      rest + fabs(a) * rest_t <= room);
 }
 
 static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
@@ -32496,7 +32496,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 
 SLI_COLD static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   const sl_factor *F = set->factor;
-  const sl_status status = F != NULL && F->type->half
+  const sl_status status = F != NULL && F->type->storage > SL_STORAGE_FLOAT
                  ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_STORAGE_COMPLEX is not saved")
                  : sli_save_check(set);
   sl_factor none;
@@ -34189,9 +34189,14 @@ static int sli_matrix_is_complex(const sl_csc *A) {
   return 1;
 }
 
-static int sli_complex_suits(const sl_factor *F) {
-  return !F->S->is_pivoted && F->rule.regularization == 0.0 &&
-       (!F->rule.replaces || F->null.vectors % 2 == 0) && sli_rows_are_paired(F->S);
+static sl_status sli_complex_suits(const sl_factor *F) {
+  const int has_pairs = !F->S->is_pivoted && sli_rows_are_paired(F->S) &&
+              (!F->rule.replaces || F->null.vectors % 2 == 0);
+  if (has_pairs && F->rule.regularization == 0.0) {
+    return SL_OK;
+  }
+  return sli_refuse(SL_ERR_UNSUPPORTED,
+      "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized");
 }
 
 static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {
@@ -34516,14 +34521,11 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
   }
 }
 
-static int sli_storage_is_known(sl_storage storage) {
-  return (unsigned)storage <= (unsigned)SL_STORAGE_COMPLEX;
-}
-
-static const char *sli_storage_needs(sl_storage storage) { /* untested: the same */
-  return storage == SL_STORAGE_COMPLEX /* untested: the same */
-         ? "options.storage needs SL_WITH_COMPLEX"
-         : "options.storage needs SL_WITH_FLOAT"; /* untested: the same */
+static const char *sli_storage_needs(sl_storage storage) {
+  return storage == SL_STORAGE_DOUBLE ? ""
+       : storage == SL_STORAGE_FLOAT ? "options.storage needs SL_WITH_FLOAT"
+       : storage == SL_STORAGE_COMPLEX ? "options.storage needs SL_WITH_COMPLEX"
+                       : NULL;
 }
 
 /* src/impl/packs/singular_table.h: null spaces, if they are compiled in */

@@ -138,6 +138,9 @@ const char *bench_isa_name(sl_isa isa);
 /** Whether it is compiled in and this processor has it. */
 int bench_isa_is_present(sl_isa isa);
 
+/** The one that SL_ISA_AUTO stands for on this processor. */
+sl_isa bench_isa_best(void);
+
 /* ---- the machine's limits (bandwidth.c, peak.c) ---- */
 
 /** Read bandwidth of one core in bytes per second, over a block of the given size, measured in this

@@ -50,17 +50,6 @@ static const char *load(char *value, size_t size) {
     return value;
 }
 
-/* The widest instruction set that this processor has. */
-static const char *best_isa(void) {
-    static const sl_isa isas[] = {SL_ISA_AVX512, SL_ISA_AVX2, SL_ISA_NEON};
-    for (size_t k = 0; k < sizeof isas / sizeof *isas; k++) {
-        if (bench_isa_is_present(isas[k])) {
-            return bench_isa_name(isas[k]);
-        }
-    }
-    return bench_isa_name(SL_ISA_SCALAR);
-}
-
 void bench_machine_write(const bench_run *run, const char *name) {
     static const double sizes[] = {32e3, 512e3, 256e6};
     const char *commit = getenv("BENCH_COMMIT");
@@ -75,7 +64,8 @@ void bench_machine_write(const bench_run *run, const char *name) {
             processor("model name", text, sizeof text),
             processor("cpu family", family, sizeof family),
             processor("model", model, sizeof model));
-    fprintf(f, "instruction set: %s\ncompiler: %s%s\n", best_isa(), COMPILER, COMPILER_VERSION);
+    fprintf(f, "instruction set: %s\ncompiler: %s%s\n", bench_isa_name(bench_isa_best()),
+            COMPILER, COMPILER_VERSION);
     fprintf(f, "load: %s\n", load(running, sizeof running));
     fprintf(f, "one core: %.0f GFlop/s", bench_peak(SL_ISA_AUTO) * 1e-9);
     if (bench_peak(SL_ISA_AVX512) > 0) {

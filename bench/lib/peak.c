@@ -113,18 +113,28 @@ const char *bench_isa_name(sl_isa isa) {
     return (size_t)isa < ISAS ? isas[isa].name : "?";
 }
 
-int bench_isa_is_present(sl_isa isa) {
+/* The instruction set of a factor that asks for `isa`; SL_ISA_AUTO: there is none. */
+static sl_isa isa_of_factor(sl_isa isa) {
     static const sl_int p[2] = {0, 1}, i[1] = {0};
     static const double x[1] = {1.0};
     const sl_csc one = {1, 1, p, i, x};
     const sl_options options = {.isa = isa};
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
+    sl_stats stats;
     bench_must(sl_symbolic_create(&S, &one, NULL, NULL), "analysis of one row");
-    const sl_status status = sl_factor_create(&F, S, &one, &options, NULL);
+    const sl_status status = sl_factor_create(&F, S, &one, &options, &stats);
     sl_factor_free(F);
     sl_symbolic_free(S);
-    return status == SL_OK;
+    return status == SL_OK ? stats.factor.isa : SL_ISA_AUTO;
+}
+
+int bench_isa_is_present(sl_isa isa) {
+    return isa_of_factor(isa) != SL_ISA_AUTO;
+}
+
+sl_isa bench_isa_best(void) {
+    return isa_of_factor(SL_ISA_AUTO);
 }
 
 static void start_values(double *x) {

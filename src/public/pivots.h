@@ -8,7 +8,7 @@
  *
  *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
  *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
- *  keep the pivots: check stats.factor.growth, and analyze again if it is large.
+ *  keep the pivots: analyze again where sl_factor_refine measures large errors.
  *  SL_PIVOTS_SKIP_NULL gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of
  *  the inverse, selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
  *

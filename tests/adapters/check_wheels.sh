@@ -27,7 +27,7 @@ import sparse_local
 n = 100
 k = np.arange(n)
 values = np.r_[np.full(n, 2.1), np.full(n - 1, -1.0)]
-A = sparse_local.from_triplets(np.r_[k, k[1:]], np.r_[k, k[:-1]], values, n)
+A = sparse_local.from_triplets(n, np.r_[k, k[1:]], np.r_[k, k[:-1]], values)
 F, b = sparse_local.Factor(A), np.cos(k)
 x = F.solve(b)
 r = b - 2.1 * x
@@ -117,7 +117,7 @@ if echo '#include <metis.h>' | $CC -E -x c - >/dev/null 2>&1; then
          PYTHONPATH=with_metis $PYTHON -B -c 'if True:
              import numpy as np, sparse_local as sl
              k = np.arange(9)
-             F = sl.Factor(sl.from_triplets(k, k, k + 1.0, 9), ordering=\"metis\")
+             F = sl.Factor(sl.from_triplets(9, k, k, k + 1.0), ordering=\"metis\")
              assert (F.solve(k + 1.0) == 1).all()'"
 fi
 for compiler in x86_64-w64-mingw32-gcc-win32 x86_64-w64-mingw32-gcc-posix; do

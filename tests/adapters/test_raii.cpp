@@ -2,6 +2,10 @@
  * statuses; compiled twice, also with -fno-exceptions */
 #include "tools/adapters/sparse_local.hpp"
 
+#ifdef SL_RESULT
+#error "a macro of the header's own is left to programs"
+#endif
+
 #include "check.hpp"
 
 #include <cmath>
@@ -163,6 +167,14 @@ void regions() {
     CHECK(f.F.refactor(f.grid.view()).ok());
     CHECK(fails(SL_ERR_STALE, -1, [&] { return P.solve(x, f.F, {1.0}); }));
     CHECK(R.refactor(f.F).ok() && P.solve(x, f.F, {1.0}).ok());
+    sl::Selected Z;
+    sl::Options least;
+    least.region_bytes = 1; /* a region without boundary */
+    CHECK(R.info().boundary > 0 && Z.create(f.F, sl::Rows::all()).ok());
+    CHECK(R.create(f.F, {100, 101}, &Z, &least).ok() && R.info().boundary == 0);
+    least.region_bytes = 0;
+    least.reserved[0] = 1;
+    CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return R.create(f.F, {100}, nullptr, &least); }));
 }
 
 void bounds() {

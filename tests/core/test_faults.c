@@ -1,4 +1,4 @@
-/* test_faults.c: METIS that fails, separators of no flow, processors without popcnt, sizes
+/* test_faults.c: METIS that fails, separators of no flow, processors without FMA, sizes
  * beyond memory: what calls cannot reach on this machine, by replaced functions and direct calls */
 #define SPARSE_LOCAL_IMPLEMENTATION
 #define SLI_FLOW_VISITS flow_visits /* 0: no flow ends in time, each separator is a border */

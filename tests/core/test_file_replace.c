@@ -1,7 +1,5 @@
 /* test_file_replace.c: sl_save over an existing file, by the means that every system has */
-#include "tests/lib/gen_matrices.h"
-
-static const char old_text[] = "the old content\n";
+#include "tests/lib/replaced_file.h"
 
 /* A path in the folder of the tests, in static storage: four at a time. */
 static const char *path_of(const char *name) {
@@ -40,35 +38,16 @@ static int exists(const char *path) {
     return file != NULL;
 }
 
-static sl_status write_path(const char *path) {
-    gen_matrix_t M = gen_matrix(GEN_PATH, 5, 1, 1);
-    sl_saved_set set;
-    memset(&set, 0, sizeof set);
-    SL_CHECK(sl_symbolic_create(&set.symbolic, &M.view, NULL, NULL));
-    SL_CHECK(sl_factor_create(&set.factor, set.symbolic, &M.view, NULL, NULL));
-    const sl_status status = sl_save(path, NULL, NULL, &set, NULL);
-    sl_saved_set_free(&set);
-    gen_matrix_free(&M);
-    return status;
-}
-
-static void assert_is_saved(const char *path) {
-    sl_saved_set back;
-    memset(&back, 0, sizeof back);
-    SL_CHECK(sl_load(&back, path, NULL, 0, SL_LOAD_CHECKED, NULL));
-    sl_saved_set_free(&back);
-}
-
 static void an_existing_file_is_replaced(void **state) {
     (void)state;
     const char *path = put_old_text(path_of("a.slf"));
     for (int k = 0; k < 2; k++) {
-        SL_CHECK(write_path(path));
+        SL_CHECK(write_grid(5, path));
         assert_is_saved(path);
         assert_false(exists(path_of("a.slf.tmp00")));
     }
     assert_int_equal(remove(path), 0);
-    SL_CHECK(write_path(path)); /* and a new one is created */
+    SL_CHECK(write_grid(5, path)); /* and a new one is created */
     assert_is_saved(path);
     assert_int_equal(remove(path), 0);
 }
@@ -79,7 +58,7 @@ static void taken_names_are_left_alone(void **state) {
     put_old_text(path);
     put_old_text(path_of("b.slf.tmp00"));
     path = path_of("b.slf");
-    SL_CHECK(write_path(path));
+    SL_CHECK(write_grid(5, path));
     assert_is_saved(path);
     assert_string_equal(content_of(path_of("b.slf.tmp00")), old_text);
     assert_int_equal(remove(path_of("b.slf.tmp00")), 0);
@@ -93,7 +72,7 @@ static void an_open_file_is_replaced_or_kept(void **state) {
     const char *path = put_old_text(path_of("d.slf"));
     FILE *reader = fopen(path, "rb");
     assert_non_null(reader);
-    sl_status status = write_path(path);
+    sl_status status = write_grid(5, path);
     char first = (char)fgetc(reader);
     assert_int_equal(fclose(reader), 0);
     assert_int_equal(first, old_text[0]);
@@ -111,11 +90,11 @@ static void an_open_file_is_replaced_or_kept(void **state) {
 static void what_is_no_file_is_written_in_place_or_refused(void **state) {
     (void)state;
 #if defined(_WIN32)
-    SL_CHECK(write_path("NUL"));
+    SL_CHECK(write_grid(5, "NUL"));
 #elif !defined(__wasi__)
-    SL_CHECK(write_path("/dev/null"));
+    SL_CHECK(write_grid(5, "/dev/null"));
 #endif
-    SL_EXPECT(SL_ERR_IO, write_path(path_of("no_such_folder/a.slf")));
+    SL_EXPECT(SL_ERR_IO, write_grid(5, path_of("no_such_folder/a.slf")));
 }
 
 int main(void) {

@@ -53,6 +53,36 @@ static void indefinite_systems_are_solved(void **state) {
     }
 }
 
+/* [s 0 1; 0 d 1; 1 1 0]: pivots for s = 0 lose d beside s = 1e19. Growth is small, refinement
+ * measures the error and removes it, and so does another analysis. */
+static void kept_pivots_may_lose_small_rows(void **state) {
+    (void)state;
+    const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 2, 1, 2, 2};
+    const double before[5] = {0, 1, 0.5, 1, 0}, after[5] = {1e19, 1, 1, 1, 0}, b[3] = {1, 2, 3};
+    const sl_csc first = {3, 3, p, i, before}, next = {3, 3, p, i, after};
+    sl_options opt = options_none();
+    opt.purpose = SL_PURPOSE_ONE_FACTOR;
+    for (int is_new = 0; is_new < 2; is_new++) {
+        double x[3];
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        SL_CHECK(sl_symbolic_create_pivoted(&S, is_new ? &next : &first, &opt, &stats));
+        assert_int_equal(stats.symbolic.pairs, 1);
+        SL_CHECK(sl_factor_create(&F, S, is_new ? &next : &first, &opt, &stats));
+        SL_CHECK(sl_factor_refactor(F, &next, &stats));
+        assert_true(stats.factor.growth < 10.0);
+        SL_CHECK(sl_factor_solve(F, x, 3, b, 3, 1, NULL));
+        SL_CHECK(sl_factor_refine(F, &next, x, 3, b, 3, 1, 0, NULL, &stats));
+        assert_true(is_new ? stats.refine.backward_error < 1e-14
+                           : stats.refine.backward_error > 0.1);
+        SL_CHECK(sl_factor_refine(F, &next, x, 3, b, 3, 1, 3, NULL, &stats));
+        assert_true(stats.refine.backward_error < 1e-14);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
 /* Without pivoting the first is refused and the second gives x = (0, 1) instead of (1, 1). */
 static void smallest_matrices_are_exact(void **state) {
     (void)state;
@@ -335,6 +365,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(indefinite_systems_are_solved),
         cmocka_unit_test(smallest_matrices_are_exact),
+        cmocka_unit_test(kept_pivots_may_lose_small_rows),
         cmocka_unit_test(definite_matrices_have_no_pairs),
         cmocka_unit_test(factors_have_the_same_bits),
         cmocka_unit_test(singular_systems_are_refused_or_regularized),

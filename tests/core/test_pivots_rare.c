@@ -191,6 +191,39 @@ static void pairs_need_no_relaxation(void **state) {
     gen_list_free(&t);
 }
 
+/* Rows 0 and 1 are columns of one front, joined by an entry so small that the determinant over its
+ * square overflows. Each has an entry of 1 below: the pair would make L as large as 1 / a. */
+static void pairs_of_a_tiny_entry_wait(void **state) {
+    (void)state;
+    static const sl_int p[5] = {0, 3, 5, 6, 6}, i[6] = {0, 1, 2, 1, 2, 3};
+    static const double tiny[] = {1e-100, 1e-160, 1e-200, 1e-310, 5e-324};
+    static const double diagonal[] = {1e-11, 1e-3, 1e-150};
+    for (size_t k = 0; k < sizeof tiny / sizeof *tiny; k++) {
+        for (size_t m = 0; m < sizeof diagonal / sizeof *diagonal; m++) {
+            const double x[6] = {diagonal[m], tiny[k], 1.0, diagonal[m], 1.0, 1.0};
+            const sl_csc A = {4, 4, p, i, x};
+            sl_options opt = options_none();
+            sl_symbolic *S;
+            sl_factor *F;
+            sl_matrix *L;
+            opt.ordering = SL_ORDERING_NATURAL;
+            opt.relaxation = SL_RELAXATION_NONE;
+            SL_CHECK(sl_symbolic_create_pivoted(&S, &A, &opt, NULL));
+            opt = options_none();
+            opt.growth_limit = opt.null_tolerance = -1.0;
+            SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+            SL_CHECK(sl_factor_lower(&L, F, NULL));
+            const sl_csc l = sl_matrix_view(L);
+            for (sl_int e = 0; e < l.p[4]; e++) {
+                assert_true(fabs(l.x[e]) <= 100.0);
+            }
+            sl_matrix_free(L);
+            sl_factor_free(F);
+            sl_symbolic_free(S);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_that_overflow_are_refused),
@@ -201,6 +234,7 @@ int main(void) {
         cmocka_unit_test(the_smallest_numbers_are_a_pair),
         cmocka_unit_test(a_search_that_overflows_ends),
         cmocka_unit_test(pairs_need_no_relaxation),
+        cmocka_unit_test(pairs_of_a_tiny_entry_wait),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -110,6 +110,15 @@ static void every_flipped_bit_is_noticed_or_harmless(void **state) {
     }
 }
 
+/* Loads or maps k, a copy of m with `size` other bytes at `at` and checksums that agree. */
+static sl_status attempt_with(saved_t *k, const saved_t *m, size_t at, const void *bytes,
+                              size_t size, int is_loaded, const sl_csc *A) {
+    memcpy(k->bytes, m->bytes, m->size);
+    memcpy(k->bytes + at, bytes, size);
+    saved_repair(k->bytes, m->size);
+    return attempt(is_loaded ? pair_load_memory : pair_map_memory, k, m->size, SL_LOAD_CHECKED, A);
+}
+
 /* Replaces every 32-bit word, or every third one, by values that overflow or point elsewhere. */
 static void every_replaced_word_is_noticed_or_harmless(void **state) {
     (void)state;
@@ -120,11 +129,7 @@ static void every_replaced_word_is_noticed_or_harmless(void **state) {
         saved_t m = saved_make(c.y.S, c.y.F), k = saved_of_size(m.size);
         for (size_t at = 8; at < m.size; at += way == SAVED_WEIGHTED ? 4 : 12) {
             for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
-                memcpy(k.bytes, m.bytes, m.size);
-                saved_put32(k.bytes + at, values[v]);
-                saved_repair(k.bytes, m.size);
-                (void)attempt(v % 2 ? pair_load_memory : pair_map_memory, &k, m.size,
-                              SL_LOAD_CHECKED, &c.y.M.view);
+                (void)attempt_with(&k, &m, at, &values[v], 4, v % 2, &c.y.M.view);
             }
         }
         saved_free(&m);
@@ -144,11 +149,8 @@ static void every_extreme_word_is_noticed_or_harmless(void **state) {
         saved_t m = saved_make(c.y.S, c.y.F), k = saved_of_size(m.size);
         for (size_t at = 8; at < m.size; at += way == SAVED_DEFINITE ? 8 : 24) {
             for (int v = 0; v < SAVED_EXTREMES; v++) {
-                memcpy(k.bytes, m.bytes, m.size);
-                saved_put64(k.bytes + at, saved_extreme(v, 16));
-                saved_repair(k.bytes, m.size);
-                (void)attempt(v % 2 ? pair_load_memory : pair_map_memory, &k, m.size,
-                              SL_LOAD_CHECKED, &c.y.M.view);
+                const uint64_t word = saved_extreme(v, 16);
+                (void)attempt_with(&k, &m, at, &word, 8, v % 2, &c.y.M.view);
             }
         }
         saved_free(&m);
@@ -168,11 +170,7 @@ static void every_replaced_real_is_noticed_or_harmless(void **state) {
         int refused = 0;
         for (size_t at = prefix; at < m.size; at += 8) {
             for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
-                memcpy(k.bytes, m.bytes, m.size);
-                memcpy(k.bytes + at, &values[v], sizeof values[v]);
-                saved_repair(k.bytes, m.size);
-                refused += attempt(v % 2 ? pair_load_memory : pair_map_memory, &k, m.size,
-                                   SL_LOAD_CHECKED, &c.y.M.view) != SL_OK;
+                refused += attempt_with(&k, &m, at, &values[v], 8, v % 2, &c.y.M.view) != SL_OK;
             }
         }
         assert_true(refused > 0);

@@ -131,21 +131,61 @@ private:
 /* Files with and without exceptions differ in what follows, and so do its names for the linker. */
 #ifdef SL_NO_EXCEPTIONS
 inline namespace returning {
-inline Status finish(const Status &status) {
-    return status;
-}
 #else
 inline namespace throwing {
-inline Status finish(const Status &status) {
-    if (!status.ok()) throw Error(status);
-    return status;
-}
 #endif
 
-/* Of a vector b whose size does not fit. */
-inline Status wrong_size() {
-    return Status(SL_ERR_ARGUMENT, "the size of b is not rows times nrhs, or nrhs is below 0");
-}
+class Work;
+
+namespace detail {
+/* What the classes share and programs do not use. */
+class Calls {
+protected:
+    static Status finish(const Status &status) {
+#ifndef SL_NO_EXCEPTIONS
+        if (!status.ok()) throw Error(status);
+#endif
+        return status;
+    }
+    /* Of a vector b whose size does not fit. */
+    static Status wrong_size() {
+        return Status(SL_ERR_ARGUMENT, "the size of b is not rows times nrhs, or nrhs is below 0");
+    }
+    static inline sl_work *work_of(const Work *work);
+    /* The library refuses a NULL, which an empty vector may have as its data. */
+    static double *data_of(std::vector<double> &v) {
+        static double nothing = 0;
+        return v.empty() ? &nothing : v.data();
+    }
+    static const double *data_of(const std::vector<double> &v) {
+        static const double nothing = 0;
+        return v.empty() ? &nothing : v.data();
+    }
+    /* Overloads, not an argument of Handle: calls are hidden if the bodies are in the same file,
+     * and so would be the classes. */
+    static void release(sl_work *object) {
+        sl_work_free(object);
+    }
+    static void release(sl_matrix *object) {
+        sl_matrix_free(object);
+    }
+    static void release(sl_symbolic *object) {
+        sl_symbolic_free(object);
+    }
+    static void release(sl_factor *object) {
+        sl_factor_free(object);
+    }
+    static void release(sl_selected *object) {
+        sl_selected_free(object);
+    }
+    static void release(sl_region *object) {
+        sl_region_free(object);
+    }
+    static void release(sl_plan *object) {
+        sl_plan_free(object);
+    }
+};
+} // namespace detail
 
 /** Options with their defaults; the fields are those of sl_options. */
 struct Options : sl_options {
@@ -196,32 +236,8 @@ private:
     sl_int count_;
 };
 
-/* Overloads, not an argument of Handle: calls are hidden if the bodies are in the same file, and
- * so would be the classes. */
-inline void release(sl_work *object) {
-    sl_work_free(object);
-}
-inline void release(sl_matrix *object) {
-    sl_matrix_free(object);
-}
-inline void release(sl_symbolic *object) {
-    sl_symbolic_free(object);
-}
-inline void release(sl_factor *object) {
-    sl_factor_free(object);
-}
-inline void release(sl_selected *object) {
-    sl_selected_free(object);
-}
-inline void release(sl_region *object) {
-    sl_region_free(object);
-}
-inline void release(sl_plan *object) {
-    sl_plan_free(object);
-}
-
 /** Owner of one object of the library. */
-template <class T> class Handle {
+template <class T> class Handle : protected detail::Calls {
 public:
     Handle() noexcept : object_(nullptr) {
     }
@@ -281,19 +297,8 @@ public:
     }
 };
 
-inline sl_work *work_of(Work *work) {
+inline sl_work *detail::Calls::work_of(const Work *work) {
     return work ? work->get() : nullptr;
-}
-
-/* The library refuses a NULL, which an empty vector may have as its data. */
-inline double *data_of(std::vector<double> &v) {
-    static double nothing = 0;
-    return v.empty() ? &nothing : v.data();
-}
-
-inline const double *data_of(const std::vector<double> &v) {
-    static const double nothing = 0;
-    return v.empty() ? &nothing : v.data();
 }
 
 /** A sparse matrix that the library owns. */
@@ -461,7 +466,7 @@ public:
     }
 
     /** Finds eta, the largest relative error of any solve in the energy norm, for
-     *  Plan::solve_bounded; A is the factored matrix. */
+     *  Plan::solve_bounded; A is the factored matrix. EXPERIMENTAL, as in C. */
     SL_RESULT certify(double &eta, const sl_csc &A, sl_certainty certainty = SL_ESTIMATED,
                       Work *work = nullptr) {
         sl_stats stats = sl_stats();
@@ -512,12 +517,14 @@ class Region : public Handle<sl_region> {
 public:
     Region() = default;
 #ifndef SL_NO_EXCEPTIONS
-    Region(const Factor &F, const Rows &set, const sl_options *options = nullptr) {
-        create(F, set, options);
+    Region(const Factor &F, const Rows &set, const Selected *Z = nullptr,
+           const sl_options *options = nullptr) {
+        create(F, set, Z, options);
     }
 #endif
-    SL_RESULT create(const Factor &F, const Rows &set, const sl_options *options = nullptr,
-                     const Selected *Z = nullptr) {
+    /** Z: NULL, or a selected inverse, which is used if it has all entries that are needed. */
+    SL_RESULT create(const Factor &F, const Rows &set, const Selected *Z = nullptr,
+                     const sl_options *options = nullptr) {
         sl_region *made = nullptr;
         sl_stats stats;
         sl_status status = sl_region_create(&made, F.get(), set.data(), set.count(),
@@ -539,9 +546,10 @@ public:
     Plan() : nb_(0), nx_(0) {
     }
 #ifndef SL_NO_EXCEPTIONS
-    Plan(const Symbolic &S, const Rows &bset, const Rows &xset, const Region *region = nullptr)
+    Plan(const Symbolic &S, const Rows &bset, const Rows &xset, const Region *region = nullptr,
+         const sl_options *options = nullptr)
         : Plan() {
-        create(S, bset, xset, region);
+        create(S, bset, xset, region, options);
     }
 #endif
     /** region: NULL, or one that the plan keeps. */
@@ -576,7 +584,7 @@ public:
         return finish(status);
     }
     /** The same, and a bound for the error of each number; F is certified. scales keeps what the
-     *  bounds need of the plan and the numbers of F: an empty vector at first. */
+     *  bounds need of the plan and the numbers of F: an empty vector at first. EXPERIMENTAL. */
     SL_RESULT solve_bounded(std::vector<double> &x, std::vector<double> &bounds, const Factor &F,
                             const std::vector<double> &b, std::vector<double> &scales,
                             sl_int nrhs = 1, Work *work = nullptr) const {
@@ -636,5 +644,7 @@ private:
 
 } // inline namespace
 } // namespace sl
+
+#undef SL_RESULT
 
 #endif

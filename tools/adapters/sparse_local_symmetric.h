@@ -54,7 +54,8 @@ typedef struct sl_symmetric {
     sl_symmetric_way way;
     sl_factor_info factor; /* of the last factorization: growth, seconds, bytes */
     /* what follows is private */
-    sl_options opt;
+    sl_options opt; /* of the analysis */
+    sl_isa isa;
     sl_csc A; /* scaled, in memory of this object */
     sl_triangle triangle;
     sl_csc shifted; /* the arrays of A + e I; NULL before they are needed */
@@ -205,6 +206,15 @@ static inline int sl_symmetric_make_shifted(sl_symmetric *M) {
     return 1;
 }
 
+/* Options of a factorization: with SL_VERIFY a call refuses those that it does not read. */
+static inline sl_options sl_symmetric_numbers(const sl_symmetric *M) {
+    sl_options opt = M->opt;
+    opt.triangle = SL_TRIANGLE_NONE;
+    opt.isa = M->isa;
+    opt.growth_limit = 1e10;
+    return opt;
+}
+
 /* Factors A + shift I by pivots chosen by its values. */
 static inline sl_status sl_symmetric_factor_shifted(sl_symmetric *M, sl_factor **F, double shift,
                                                     sl_stats *stats) {
@@ -225,7 +235,8 @@ static inline sl_status sl_symmetric_factor_shifted(sl_symmetric *M, sl_factor *
     }
     sl_status status = sl_symbolic_create_pivoted(&S, &B, &M->opt, stats);
     if (status == SL_OK) {
-        status = sl_factor_create(F, S, &B, &M->opt, stats);
+        const sl_options opt = sl_symmetric_numbers(M);
+        status = sl_factor_create(F, S, &B, &opt, stats);
     }
     sl_symbolic_free(S);
     return status;
@@ -240,7 +251,8 @@ static inline sl_status sl_symmetric_factor_fixed(sl_symmetric *M, sl_stats *sta
     if (M->S == NULL) {
         status = sl_symbolic_create(&M->S, &M->A, &M->opt, stats);
     }
-    return status == SL_OK ? sl_factor_create(&M->F, M->S, &M->A, &M->opt, stats) : status;
+    const sl_options opt = sl_symmetric_numbers(M);
+    return status == SL_OK ? sl_factor_create(&M->F, M->S, &M->A, &opt, stats) : status;
 }
 
 /* Factors in one way. A pivot within rounding of 0 counts as null. */
@@ -357,7 +369,15 @@ static inline sl_status sl_symmetric_create(sl_symmetric **out, const sl_csc *A,
         return sl_symmetric_refuse(stats, SL_ERR_ARGUMENT, "out is NULL", -1);
     }
     *out = NULL;
-    sl_status status = sl_csc_triangle(A, &triangle, opt, stats);
+    sl_options plain, reading;
+    sl_options_init(&plain, sizeof plain);
+    if (opt != NULL) {
+        plain.allocator = opt->allocator;
+        plain.threads = opt->threads;
+    }
+    reading = plain;
+    reading.triangle = opt != NULL ? opt->triangle : SL_TRIANGLE_NONE;
+    sl_status status = sl_csc_triangle(A, &triangle, &reading, stats);
     if (status == SL_OK && A->x == NULL) {
         status = sl_symmetric_refuse(stats, SL_ERR_ARGUMENT, "A has no values", -1);
     }
@@ -369,14 +389,8 @@ static inline sl_status sl_symmetric_create(sl_symmetric **out, const sl_csc *A,
         return sl_symmetric_refuse(stats, SL_ERR_MEMORY, NULL, -1);
     }
     const size_t n = (size_t)A->n_cols, count = (size_t)A->p[n];
-    sl_options_init(&M->opt, sizeof M->opt);
-    if (opt != NULL) {
-        M->opt.allocator = opt->allocator;
-        M->opt.threads = opt->threads;
-        M->opt.isa = opt->isa;
-        M->opt.triangle = opt->triangle;
-    }
-    M->opt.growth_limit = 1e10;
+    M->opt = reading;
+    M->isa = opt != NULL ? opt->isa : SL_ISA_AUTO;
     M->triangle = triangle;
     M->p = (sl_int *)sl_symmetric_array(n, sizeof *M->p);
     M->i = (sl_int *)sl_symmetric_array(count, sizeof *M->i);
@@ -384,7 +398,7 @@ static inline sl_status sl_symmetric_create(sl_symmetric **out, const sl_csc *A,
     M->scale = (int *)sl_symmetric_array(n, sizeof *M->scale);
     status = M->p == NULL || M->i == NULL || M->x == NULL || M->scale == NULL
                  ? sl_symmetric_refuse(stats, SL_ERR_MEMORY, NULL, -1)
-                 : sl_work_create(&M->W, &M->opt);
+                 : sl_work_create(&M->W, &plain);
     if (status == SL_OK) {
         memcpy(M->p, A->p, (n + 1) * sizeof *M->p);
         if (count > 0) {

@@ -64,6 +64,12 @@ def parse_header(text):
     return entries
 
 
+def experimental(text):
+    """The names in a public file whose contracts have EXPERIMENTAL in their first line."""
+    return {entry.name for entry in parse_header(text)
+            if "EXPERIMENTAL" in entry.comment.split("\n")[0]}
+
+
 def shown_code(code):
     """A declaration without what only the compiler reads."""
     for begin in (BEFORE_RESULT, "SL_API "):

@@ -22,7 +22,7 @@ import shutil
 import sys
 
 import figures
-from contracts import api_pages
+from contracts import api_pages, experimental
 from markdown import anchor, markdown
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -226,6 +226,11 @@ class Manual:
         for name, file in rows:
             if self.page_of_name.get(name) != "api-" + file[:-2]:
                 PROBLEMS.append("intro.h: %s is not in %s" % (name, file))
+        marked = set().union(*(experimental(read("src/public/" + name + ".h"))
+                               for name in names_in("src/public", ".h")))
+        listed = read("tools/docs/promise.md").split("EXPERIMENTAL")[1].split("\n- ")[0]
+        for name in sorted(marked ^ set(re.findall(r"`(sl_\w+)`", listed))):
+            PROBLEMS.append("promise.md: %s is marked or listed as EXPERIMENTAL alone" % name)
         pages = {path: read(path) for path in sorted(self.files) + ["README.md"]}
         PROBLEMS.extend(figures.problems(pages))
         if self.words() > MOST_WORDS:

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""named_files.py: do the files, headings and make targets that the documents name exist?
+"""named_files.py: do the files, headings, make targets and C names in the documents exist?
 
     tools/docs/named_files.py
 
 Of each Markdown file of the repository, outside of code blocks: targets of links, with the heading
 after #, and names of files between backquotes, `tests/core/test_judge.c` or `test_judge.c`: a path
 from the root or from the folder of the document, or the end of one. `*` stands for any characters,
-NAME in capitals for a name. `make target` has to be in a Makefile. Marks of measured figures are in
-those documents alone that figures.py checks. CHANGELOG.md names what is gone: of it links alone are
-checked. Ends with 1 if something does not exist.
+NAME in capitals for a name. `make target` has to be in a Makefile, and `sli_name`, `SL_NAME` and
+the like in a source; with _ at the end they are the beginning of a name. Marks of measured figures
+are in those documents alone that figures.py checks. CHANGELOG.md names what is gone: of it links
+alone are checked. Ends with 1 if something does not exist.
 """
 import fnmatch
 import os
@@ -22,6 +23,8 @@ from markdown import anchor
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 FILE = re.compile(r"[\w.*/{},-]*[\w*]\.(?:h|hpp|c|cpp|md|sh|py|awk|mk|cmake|m|mjs|csv|tsv|png|obj"
                   r"|ignore|dict)$|(?:src|tests|tools|bench|impl|public|\.ci)/[\w.*/-]+$")
+C_NAME = re.compile(r"\b(?:sli?|SL[IFVW]?)_\w+")
+SOURCE = re.compile(r"(?:src|tools|bench|tests(?!/abi))/.*\.(?:h|hpp|c|cpp|py|js|sh|mk|awk)$")
 # of QDLDL, and of a release
 OTHERS = {"qdldl.h", "CONTENTS.md", "pair/sparse_local.h", "pair/sparse_local.c"}
 
@@ -102,13 +105,30 @@ def target_problems(path, text, known):
         yield "%s names make %s, which does not exist" % (path, name)
 
 
-def problems(path, text, there, known):
-    """What a document names and does not exist; known: the targets of make."""
+def c_names(there):
+    """The names of the sources, without the header of 1.0.0-rc1 and what is generated."""
+    return {name for path in there
+            if SOURCE.match(path)
+            for name in C_NAME.findall(read(path))}
+
+
+def c_name_problems(path, text, sources):
+    quoted = " ".join(re.findall(r"`([^`]+)`", text))
+    for name in sorted(set(C_NAME.findall(quoted)) - sources):
+        call = name.partition("_needs_SL_WITH_")[0]  # what a call of a pack that is off expands to
+        is_part = name.endswith("_") and any(full.startswith(name) for full in sources)
+        if call not in sources and not is_part and "NAME" not in name:
+            yield "%s names %s, which is in no source" % (path, name)
+
+
+def problems(path, text, there, known, sources):
+    """What a document names and does not exist; known: the targets of make; sources: names of C."""
     found = list(link_problems(path, without_code(text), there))
     if path == "CHANGELOG.md":
         return found
     found += name_problems(path, without_code(text), there)
     found += target_problems(path, text, known)
+    found += c_name_problems(path, without_code(text), sources)
     if path not in figures.MARKED and figures.MARKS.search(text):
         found.append("%s has marks of figures, which nothing checks there" % path)
     return found
@@ -119,7 +139,9 @@ def main():
     there = names | folders_of(names)
     pages = sorted(name for name in names if name.endswith(".md"))
     known = targets(names)
-    found = [problem for page in pages for problem in problems(page, read(page), there, known)]
+    sources = c_names(names)
+    found = [problem for page in pages
+             for problem in problems(page, read(page), there, known, sources)]
     print("\n".join(found) or "named_files: what %d documents name exists" % len(pages))
     return bool(found)
 

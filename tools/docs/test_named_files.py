@@ -12,7 +12,8 @@ THERE = {"README.md", "tests/README.md", "tests/core/test_judge.c", "src/impl/ba
 
 
 def problems(text, path="tests/README.md"):
-    return named_files.problems(path, text, THERE, {"test", "docs"})
+    return named_files.problems(path, text, THERE, {"test", "docs"},
+                                {"sl_solve", "sli_order", "SLI_ORDER_MAX"})
 
 
 class NamedFiles(unittest.TestCase):
@@ -38,6 +39,13 @@ class NamedFiles(unittest.TestCase):
     def test_a_target_that_is_gone(self):
         self.assertEqual(problems("`make docs`, `make tests`"),
                          ["tests/README.md names make tests, which does not exist"])
+
+    def test_a_name_of_c_that_is_gone(self):
+        self.assertEqual(problems("`sl_solve(a, sli_order)`, `SLI_ORDER_`, `sl_NAME_free`, sl_gone,"
+                                  " `sl_solve_needs_SL_WITH_CHANGE`\n```\nsl_gone\n```\n"), [])
+        for name in ["sl_gone", "sli_ord", "SLI_GONE_", "sl_gone_needs_SL_WITH_CHANGE"]:
+            self.assertEqual(problems("`%s = 1`" % name),
+                             ["tests/README.md names %s, which is in no source" % name])
 
     def test_figures_that_nothing_checks(self):
         mark = "It has <!-- sizes.csv: core -->331 kB<!-- end -->."

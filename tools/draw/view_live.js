@@ -65,7 +65,7 @@ function system(t, withMass) { /* the lower triangle, with an entry for each edg
             diagonal[v] += w;
         }
     }
-    return sparse.matrix(n, rows, columns, entries);
+    return sparse.fromTriplets(n, rows, columns, entries);
 }
 
 const began = performance.now(), M = system(given.time, true), L = system(1, false);
@@ -102,7 +102,7 @@ function live(name, scale) {
 const heat = live("heat", "logarithm"), distance = live("distance", "linear"), harmonic = live("harmonic", "linear");
 
 function computeHeat(source) {
-    heatFactor.localSolve([source], null, one, heap.u);
+    heatFactor.localSolve([source], one, null, heap.u);
 }
 
 function setHeat(source) {
@@ -168,7 +168,7 @@ function setHarmonic(to) {
         pins.release([held.length]).add([to]);
         pinned = to;
     }
-    pins.solve(levels, {x: heap.x, plan: nothing});
+    pins.solve(null, levels, {x: heap.x, plan: nothing});
     harmonic.value.set(heap.x.view);
     harmonic.bounds = {linear: [0, 1], logarithm: [1e-3, 1]};
 }

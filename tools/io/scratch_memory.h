@@ -13,6 +13,8 @@
  *
  *  A factorization writes the panels one after the other, each once; its update stack is used again
  *  soon and stays in memory. An ordering reads at random, and is slow where memory is short.
+ *
+ *  Processes share these pages after fork: one that changes an object changes it in the others.
  */
 enum { SCRATCH_BLOCK = 16 << 20 };
 

@@ -84,7 +84,10 @@ static object *find(const mxArray *id, object_kind k) {
     const double number = id_of(id);
     while (o != NULL && (o->id != number || o->kind != k))
         o = o->next;
-    if (o == NULL) refuse("the object is closed, or comes from another session");
+    if (o == NULL) {
+        mexErrMsgIdAndTxt("sparse_local:stale", "%s: the object is closed, or of another session",
+                          sl_status_string(SL_ERR_STALE));
+    }
     return o;
 }
 

@@ -65,7 +65,7 @@ static int set_option(sl_options *o, int *pivoted, const char *name, const mxArr
     } else if (strcmp(name, "threads") == 0) {
         o->threads.count = whole_in(name, value);
     } else if (strcmp(name, "triangle") == 0) {
-        o->triangle = (sl_triangle)word_in(name, value, "both|lower|upper");
+        o->triangle = (sl_triangle)word_in(name, value, "auto|lower|upper");
     } else if (strcmp(name, "ordering") == 0) {
         o->ordering = orderings[word_in(name, value, "nd|mindeg|natural")];
     } else if (strcmp(name, "perm") == 0) {
@@ -108,6 +108,7 @@ static void options_of(const mxArray *list, sl_options *o, int *pivoted, sl_int 
     size_t k;
     const size_t count = mxIsCell(list) ? mxGetNumberOfElements(list) : 1;
     char name[32];
+    int has_ordering = 0;
     sl_options_init(o, sizeof *o);
     *pivoted = 0;
     if (count % 2 != 0) refuse("options are pairs of a name and a value");
@@ -120,7 +121,9 @@ static void options_of(const mxArray *list, sl_options *o, int *pivoted, sl_int 
                               "known; see help sparse_local",
                               (double)(k / 2 + 1));
         }
+        has_ordering |= strcmp(name, "ordering") == 0;
     }
+    if (has_ordering && o->perm != NULL) refuse("perm excludes an ordering");
 }
 
 #endif

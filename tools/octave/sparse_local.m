@@ -11,7 +11,7 @@ classdef sparse_local < handle
 %     'mass', m                with it: solutions have m' * x = 0 in each component
 %     'null_vector', Z         with it: the null vectors, other than constants
 %     'null_tolerance', 'consistency_tolerance', 'growth_limit', 'error_limit': numbers
-%     'triangle', 'lower'      reads one triangle only; 'upper'; 'both': what is stored
+%     'triangle', 'lower'      reads one triangle only; 'upper'; 'auto': what is stored
 %     'ordering', 'mindeg'     'nd' (default), 'mindeg', 'natural'; or 'perm', p
 %     'purpose', 'one factor'  the first factor as early as possible
 %     'block_size', 3          rows 3k+1 .. 3k+3 stay together in the order
@@ -169,7 +169,9 @@ classdef sparse_local < handle
         end
 
         function P = constraints(this, list)
-            % P = F.constraints(I): rows held at values; see sparse_local_constraints.
+            % P = F.constraints(I): rows held at values, at first none if I is not given; see
+            % sparse_local_constraints.
+            if nargin < 2, list = []; end
             P = sparse_local_constraints(this, list);
         end
 

@@ -32,7 +32,7 @@ ADAPTERS = $(wildcard tools/adapters/*.hpp)
 EIGEN = -isystem /usr/include/eigen3
 # test_raii is built with exceptions and without
 # test_clients is run by a target of its own
-ADAPTER_NAMES = test_raii test_returning test_eigen test_eigen_hostile test_eigen_names
+ADAPTER_NAMES = test_raii test_returning test_eigen test_eigen_hostile test_eigen_names test_eigen_pivots
 
 # $(1) compiler, $(2) standard, $(3) program, $(4) source, $(5) flags
 define adapter_program
@@ -47,6 +47,7 @@ $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 	$(eval $(call adapter_program,$(cxx),$(std),test_eigen,test_eigen,))\
 	$(eval $(call adapter_program,$(cxx),$(std),test_eigen_hostile,test_eigen_hostile,))\
 	$(eval $(call adapter_program,$(cxx),$(std),test_eigen_names,test_eigen_names,))\
+	$(eval $(call adapter_program,$(cxx),$(std),test_eigen_pivots,test_eigen_pivots,))\
 	$(eval $(call adapter_program,$(cxx),$(std),test_clients,test_clients,))))
 ADAPTER_PROGRAMS = $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 	$(ADAPTER_NAMES:%=build/adapters/$(cxx)-$(std)-%)))

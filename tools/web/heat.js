@@ -50,6 +50,6 @@ console.log(`now ${near.solve([1])[0]}`);
 
 const P = F.constraints([0, n - 1]);
 stop = clock("a field that is 1 and -1 at two corners");
-const field = P.solve([1, -1]);
+const field = P.solve(null, [1, -1]);
 stop();
 console.log(`${field[0].toFixed(6)} ${field[n - 1].toFixed(6)}`);

@@ -27,11 +27,11 @@ export interface FactorOptions {
 }
 
 export interface AnalysisOptions {
-    triangle?: "auto" | "lower" | "upper" | "both";
+    triangle?: "auto" | "lower" | "upper";
     ordering?: "nd" | "mindeg" | "natural" | "given";
     perm?: Numbers; /* perm[k]: row that is pivot k */
     blockSize?: number; /* rows of a vertex that stay together */
-    purpose?: "many-solves" | "one-factor";
+    purpose?: "many solves" | "one factor";
 }
 
 export type Options = AnalysisOptions & FactorOptions;
@@ -55,9 +55,6 @@ export class SparseLocalError extends Error {
     readonly column: number; /* -1: none */
     readonly value: number;
 }
-
-/** A sentence of the C library in the names of this package, as the errors above have it. */
-export function inOwnNames(sentence: string): string;
 
 /** Objects in the heap are released by dispose(), in any order, or when nobody can reach them any
  *  more. */
@@ -106,8 +103,8 @@ export class Factor implements Owned {
     solve<X extends Result>(b: Numbers, x: X): X;
     /** b is 0 outside of bset, x is wanted on xset; null: all rows. */
     plan(bset: Numbers | null, xset: Numbers | null): Plan;
-    localSolve(bset: Numbers | null, xset: Numbers | null, b: Numbers): Float64Array;
-    localSolve<X extends Result>(bset: Numbers | null, xset: Numbers | null, b: Numbers, x: X): X;
+    localSolve(bset: Numbers | null, b: Numbers, xset: Numbers | null): Float64Array;
+    localSolve<X extends Result>(bset: Numbers | null, b: Numbers, xset: Numbers | null, x: X): X;
     /** A + V diag(sigma) V': V has k columns, each with the rows of one entry or edge of A. */
     rankUpdate(V: {p: Numbers, i: Numbers, x: Numbers}, sigma?: Numbers | null): this;
     /** a_ij and a_ji by deltas, each pair given once. */
@@ -122,7 +119,7 @@ export class Plan implements Owned {
     readonly factor: Factor;
     readonly nb: number;
     readonly nx: number;
-    solve(b: Numbers): Float64Array;
+    solve(b: Numbers, x?: null, factor?: Factor): Float64Array;
     solve<X extends Result>(b: Numbers, x: X, factor?: Factor): X;
     dispose(): void;
     [Symbol.dispose](): void;
@@ -136,9 +133,9 @@ export class Constraints implements Owned {
     release(indices: Numbers): this;
     /** After a change of the factor. */
     refactor(): this;
-    /** x is `values` at the pins, A x = b in all other rows; b: 0 if not given. */
-    solve(values: Numbers, more?: {b?: Numbers | null, plan?: Plan | null}): Float64Array;
-    solve<X extends Result>(values: Numbers, more: {b?: Numbers | null, x: X, plan?: Plan | null}): X;
+    /** x is `values` at the pins, A x = b in all other rows; b null: 0. */
+    solve(b: Numbers | null, values: Numbers, more?: {plan?: Plan | null}): Float64Array;
+    solve<X extends Result>(b: Numbers | null, values: Numbers, more: {x: X, plan?: Plan | null}): X;
     dispose(): void;
     [Symbol.dispose](): void;
 }

@@ -5,14 +5,14 @@
  * - HeapArrays of the instance, or typed arrays of the right type over its memory: used in place;
  * - any other arrays of numbers: copied into the heap for the time of the call. */
 
-const triangles = {auto: 0, lower: 1, upper: 2, both: 3};
+const triangles = {auto: 0, lower: 1, upper: 2};
 const orderings = {nd: 0, given: 3, natural: 4, mindeg: 5};
-const purposes = {"many-solves": 0, "one-factor": 1};
+const purposes = {"many solves": 0, "one factor": 1};
 const nullPivots = {refuse: 0, skip: 1};
 const statuses = ["OK", "ARGUMENT", "MEMORY", "MALFORMED", "PIVOT", "NOT_FINITE", "TOO_LARGE",
     "UNSUPPORTED", "IO", "ORDERING", "MISMATCH", "INCONSISTENT", "INACCURATE", "OTHER_PATTERN", "STALE",
     "READ_ONLY"];
-const OUT_OF_MEMORY = 2;
+const OUT_OF_MEMORY = 2, STALE = 14;
 
 /* What sentences of the library call by its names in C, and what that is here. A name that begins with
  * another one stands before it. */
@@ -42,7 +42,7 @@ const known = new RegExp(Object.keys(names)
 const ofC = new RegExp("\\b(?:sl|SL)_|\\bMETIS_|\\b(?:options|stats|set|threads)[.]|\\b(?:options|set) is not|" +
     "\\b[A-Z][.](?:im|columns)\\b|\\bNULL\\b|\\bsize_t\\b|\\bld[a-z]\\b|[a-z]_[a-z]");
 
-/** A sentence of the library in the names of this package, as its errors have it. */
+/* A sentence of the library in the names of this package, as its errors have it; exported for a test alone. */
 export function inOwnNames(sentence) {
     const text = sentence.replace(known, name => names[name]);
     if (!ofC.test(text)) return text;
@@ -77,7 +77,7 @@ export class HeapArray {
     }
     get type() { return this.#Type; }
     get view() {
-        if (this.pointer === 0) throw new Error("the array has been disposed of");
+        if (this.pointer === 0) throw new SparseLocalError("the array has been disposed of", STALE);
         if (this.#view?.buffer !== this.#heap.memory.buffer) {
             this.#view = new this.#Type(this.#heap.memory.buffer, this.pointer, this.length);
         }
@@ -280,15 +280,27 @@ function putMatrix(heap, A, withValues, columns = A?.n) {
         withValues ? heap.put(A.x ?? [], Float64Array, nnz, "A.x") : 0];
 }
 
-function setOptions(heap, options, n) {
-    const known = ["triangle", "ordering", "perm", "blockSize", "purpose", "nullPivots", "mass", "definite"];
-    for (const key of Object.keys(options)) {
-        if (!known.includes(key)) throw new RangeError(`options: ${key} is none of ${known.join(", ")}`);
+const ofAnalysis = ["triangle", "ordering", "perm", "blockSize", "purpose"], ofFactor = ["nullPivots", "mass", "definite"];
+
+/* Refuses names that are none of these. */
+function checkNames(what, given, known) {
+    for (const key of Object.keys(given)) {
+        if (!known.includes(key)) throw new RangeError(`${what}: ${key} is none of ${known.join(", ")}`);
     }
+}
+
+/* Those of the options that are listed. */
+function chosen(options, known) {
+    return Object.fromEntries(Object.entries(options).filter(([key]) => known.includes(key)));
+}
+
+function setOptions(heap, options, n) {
     const skips = choice(nullPivots, options.nullPivots, "nullPivots") === 1;
     if (skips && options.definite) throw new RangeError('options: definite excludes nullPivots "skip"');
     const given = options.perm !== undefined && options.ordering === undefined ? "given" : options.ordering;
-    if (given === "given" && !options.perm) throw new RangeError('options: ordering "given" needs perm');
+    if ((given === "given") !== Boolean(options.perm)) {
+        throw new RangeError('options: ordering "given" needs perm, and perm no other ordering');
+    }
     heap.exports.web_options(choice(triangles, options.triangle, "triangle"),
         choice(orderings, given, "ordering"), heap.put(options.perm, Int32Array, n, "perm"),
         options.blockSize ?? 0, choice(purposes, options.purpose, "purpose"),
@@ -378,7 +390,9 @@ class Owned {
         for (const key of ["heap", "pointer"]) Object.defineProperty(this, key, {enumerable: false});
     }
     get alive() {
-        if (this.pointer === 0) throw new Error(`the ${this.constructor.name} has been disposed of`);
+        if (this.pointer === 0) {
+            throw new SparseLocalError(`the ${this.constructor.name} has been disposed of`, STALE);
+        }
         return this.pointer;
     }
     dispose() { this.heap.release(this, this.#release); }
@@ -414,7 +428,8 @@ export class Analysis extends Owned {
     factor(A, options = {}) {
         const {heap} = this;
         return heap.call(() => {
-            setOptions(heap, {...options, ordering: undefined, perm: undefined}, this.n);
+            checkNames("options", options, ofFactor);
+            setOptions(heap, options, this.n);
             return heap.exports.web_factor(this.alive, A.n, ...putMatrix(heap, A, true));
         }, () => new Factor(heap, this.n));
     }
@@ -459,7 +474,7 @@ export class Factor extends Owned {
     }
 
     /** One local solve without a plan. */
-    localSolve(bset, xset, b, x) {
+    localSolve(bset, b, xset, x) {
         const {heap, n} = this, nb = bset === null ? n : countOf(bset, "bset");
         const nx = xset === null ? n : countOf(xset, "xset"), nrhs = columnsOf(b, nb, "b");
         x ??= new Float64Array(nx * nrhs);
@@ -548,7 +563,7 @@ export class Constraints extends Owned {
     }
     /** x is `values` at the pins, and A x = b in all other rows; b null: 0. With a plan a local solve
      *  of its sets. */
-    solve(values, {b = null, x, plan = null} = {}) {
+    solve(b, values, {x, plan = null} = {}) {
         const {heap, count} = this, n = this.factor.n, nb = plan ? plan.nb : n, nx = plan ? plan.nx : n;
         const nrhs = count === 0 ? columnsOf(b ?? [], nb, "b") : columnsOf(values, count, "values");
         x ??= new Float64Array(nx * nrhs);
@@ -586,10 +601,7 @@ export class SparseLocal {
     /** The matrix of a Matrix Market file, as text or bytes: square, coordinate, real or integer. A
      *  symmetric file gives its lower triangle. Without limits the file may claim what its length allows. */
     readMatrix(source, limits = {}) {
-        const known = ["maxRows", "maxEntries", "maxBytes"];
-        for (const key of Object.keys(limits)) {
-            if (!known.includes(key)) throw new RangeError(`limits: ${key} is none of ${known.join(", ")}`);
-        }
+        checkNames("limits", limits, ["maxRows", "maxEntries", "maxBytes"]);
         const isText = typeof source === "string";
         if (!isText && !ArrayBuffer.isView(source) && !(source instanceof ArrayBuffer)) {
             throw new TypeError("source: a text or bytes are wanted");
@@ -602,14 +614,16 @@ export class SparseLocal {
         const heap = this.#heap;
         return heap.call(() => {
             const [p, i] = putMatrix(heap, A, false);
+            checkNames("options", options, ofAnalysis);
             setOptions(heap, options, A.n);
             return heap.exports.web_analyze(A.n, p, i);
         }, () => new Analysis(heap, A.n));
     }
     factor(A, options = {}) {
-        const analysis = this.analyze(A, options);
+        checkNames("options", options, [...ofAnalysis, ...ofFactor]);
+        const analysis = this.analyze(A, chosen(options, ofAnalysis));
         try {
-            return analysis.factor(A, options);
+            return analysis.factor(A, chosen(options, ofFactor));
         } finally {
             analysis.dispose(); /* the factor keeps what it needs */
         }

@@ -66,7 +66,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
         F->work.reciprocals = SLI_CUT(b, double, workers *SLI_FRONT_RECIPROCALS);
         F->work.failures = SLI_CUT(b, sli_failure, workers);
         sli_factor_layout_panels(F, b);
-        if (!sli_is_float(F)) {
+        if (F->type->store == NULL) {
             F->history.marks = SLI_CUT(b, uint64_t, S->n_supers);
         }
     } else {
@@ -109,7 +109,7 @@ static sl_status sli_factor_prepare(sl_factor *F, int is_new) {
             sli_schedule_work_layout(&w, &t, S->n_supers, plan.workers);
         }
         if (status == SL_OK) {
-            sli_schedule_fill(&plan, S, sli_is_float(F) ? SLI_PLAIN_PASSED : SLI_PLAIN, &w);
+            sli_schedule_fill(&plan, S, F->type->store != NULL ? SLI_PLAIN_PASSED : SLI_PLAIN, &w);
         }
     }
     SLI_LAYOUT(&b, &F->allocator, status) {

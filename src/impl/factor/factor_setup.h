@@ -12,7 +12,8 @@
 static const char *sli_factor_choices_wrong(const sl_options *opt) {
     return (unsigned)opt->method > (unsigned)SL_METHOD_SUPERNODAL
                ? "options.method is not a value of sl_method"
-           : !sli_storage_is_known(opt->storage) ? "options.storage is not a value of sl_storage"
+           : sli_storage_needs(opt->storage) == NULL
+               ? "options.storage is not a value of sl_storage"
            : (unsigned)opt->pivots > (unsigned)SL_PIVOTS_SKIP_NULL
                ? "options.pivots is not a value of sl_pivots"
            : opt->null_tolerance != opt->null_tolerance ? "options.null_tolerance is NaN"
@@ -204,10 +205,9 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     status =
         S->is_pivoted && sli_skips_nulls(&draft)
             ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_PIVOTS_SKIP_NULL with an analysis for 2x2 pivots")
-        : draft.type->suits != NULL && !draft.type->suits(&draft)
-            ? sli_refuse(SL_ERR_UNSUPPORTED,
-                         "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized")
-            : sli_factor_use(&draft, opt);
+        : draft.type->suits != NULL ? draft.type->suits(&draft)
+                                    : SL_OK;
+    status = status == SL_OK ? sli_factor_use(&draft, opt) : status;
     SLI_LAYOUT(&b, &a, status) {
         (void)sli_take(&b, 1, sizeof(sl_factor));
         sli_factor_layout(&draft, &b, draft.null.is_centered);

@@ -36,8 +36,8 @@ struct sli_storage_type {
     /* The entry of L at a position of the panels, and sets it to 0; NULL: L is in double. */
     double (*entry)(const void *values, sl_off at);
     void (*entry_clear)(void *values, sl_off at);
-    /* Can a factor with this analysis and these rules be kept so? NULL: always. */
-    int (*suits)(const sl_factor *F);
+    /* Refuses a factor with an analysis or rules that do not suit it. NULL: all do. */
+    sl_status (*suits)(const sl_factor *F);
     /* Refuses a matrix that does not have the form that is needed. NULL: all have it. */
     void (*accepts)(const sl_symbolic *S, const sli_source *from, sli_failure *failure);
     /* Has the matrix on these rows, with the analysis S, that form, too? NULL: always. */
@@ -46,9 +46,8 @@ struct sli_storage_type {
     const sli_storage_type *in_double;
 };
 
-/* Is it a value of sl_storage? Its table; NULL: it is not compiled in, and what it needs. All are
- * defined where all packs are known. */
-static int sli_storage_is_known(sl_storage storage);
+/* The table of a storage; NULL: it is not compiled in. What it needs; NULL: it is no value of
+ * sl_storage. Both are defined where all packs are known. */
 static const sli_storage_type *sli_storage_type_of(sl_storage storage);
 static const char *sli_storage_needs(sl_storage storage);
 
@@ -60,7 +59,7 @@ SLI_INLINE int sli_is_float(const sl_factor *F) {
 /* Is the panel of supernode s copied when its front is done, as its numbers are rounded, or as it
  * has no padding? */
 SLI_INLINE int sli_panel_is_copied(const sl_factor *F, sl_int s) {
-    return F->S->steps[s].width == 1 || sli_is_float(F);
+    return F->S->steps[s].width == 1 || F->type->store != NULL;
 }
 
 /* The panel of supernode s in double, while a worker factors it. */

@@ -265,7 +265,7 @@ static void sli_subgraph_corridor(sli_subgraph *sub, const sli_labelling *in, sl
             }
             sub->weight[k] = sli_level_weight(in->g, v);
         }
-        memset(sub->layer + first, layer, (size_t)(last - first));
+        memset(sub->layer + first, layer, (size_t)last - (size_t)first);
     }
     memcpy(sub->home, sub->side, (size_t)sub->n);
 }

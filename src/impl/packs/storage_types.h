@@ -27,14 +27,11 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
     }
 }
 
-static int sli_storage_is_known(sl_storage storage) {
-    return (unsigned)storage <= (unsigned)SL_STORAGE_COMPLEX;
-}
-
-static const char *sli_storage_needs(sl_storage storage) { /* untested: the same */
-    return storage == SL_STORAGE_COMPLEX                   /* untested: the same */
-               ? "options.storage needs SL_WITH_COMPLEX"
-               : "options.storage needs SL_WITH_FLOAT"; /* untested: the same */
+static const char *sli_storage_needs(sl_storage storage) {
+    return storage == SL_STORAGE_DOUBLE    ? ""
+           : storage == SL_STORAGE_FLOAT   ? "options.storage needs SL_WITH_FLOAT"
+           : storage == SL_STORAGE_COMPLEX ? "options.storage needs SL_WITH_COMPLEX"
+                                           : NULL;
 }
 
 #endif

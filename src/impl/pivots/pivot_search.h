@@ -77,14 +77,16 @@ static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *
         return 0;
     }
     other = sli_dense_column(f, t);
-    rest = sli_column_max(column, k, f->rows, c, t, &row);
-    rest_t = sli_column_max(other, k, f->rows, c, t, &row);
-    a = fabs(column[c] / e);
-    b = fabs(other[t] / e);
-    /* |D^-1| = [b 1; 1 a] / (e |a b - 1|), with the signs of a and b in the determinant */
-    room = e * fabs(column[c] / e * (other[t] / e) - 1.0) / SLI_PIVOT_THRESHOLD;
+    rest = sli_column_max(column, k, f->rows, c, t, &row) / e;
+    rest_t = sli_column_max(other, k, f->rows, c, t, &row) / e;
+    a = column[c] / e;
+    b = other[t] / e;
+    /* |D^-1| = [|b| 1; 1 |a|] / (e |a b - 1|). If a b overflows, both are pivots
+     * alone, up to rounding */
+    room = fabs(a * b - 1.0) / SLI_PIVOT_THRESHOLD;
     *partner = t;
-    return b * rest + rest_t <= room && rest + a * rest_t <= room ? 2 : 0;
+    return 2 * (room <= DBL_MAX && fabs(b) * rest + rest_t <= room &&
+                rest + fabs(a) * rest_t <= room);
 }
 
 /* Exchanges rows and columns i and j of the pivots' part. */

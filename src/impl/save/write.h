@@ -195,7 +195,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 /* Checks the arguments of a save and fills in everything but the checksums. */
 SLI_COLD static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     const sl_factor *F = set->factor;
-    const sl_status status = F != NULL && F->type->half
+    const sl_status status = F != NULL && F->type->storage > SL_STORAGE_FLOAT
                                  ? sli_refuse(SL_ERR_UNSUPPORTED, "SL_STORAGE_COMPLEX is not saved")
                                  : sli_save_check(set);
     sl_factor none;

@@ -57,7 +57,7 @@ SLI_AT_LINE static int sli_reach_is_finite(const sl_factor *F, const sli_reach *
     const sl_symbolic *S = F->S;
     const sl_int *low = R->count == S->n_supers ? S->first_descendant : NULL;
     const sl_int least = S->stats.symbolic.components == 1 ? sli_max(R->count - 1, 0) : 0;
-    const sl_int last = F->type->storage == SL_STORAGE_COMPLEX ? 2 : 1;
+    const sl_int last = 1 + F->type->half;
     const sli_step *steps = R->steps;
     sl_int s;
     int is_finite = 1;

@@ -12,13 +12,16 @@ import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { WASI } from 'node:wasi';
 
+/* Where the tests' files go (tests/lib/run.sh), by the name that the program is told. */
+const temporary = process.env.TMPDIR ? { [process.env.TMPDIR]: process.env.TMPDIR } : {};
+
 /* The exit status of an instance; 1 if it trapped. */
 async function run(program, test) {
     const wasi = new WASI({
         version: 'preview1',
         args: [program],
         env: { ...process.env, SL_ONE_TEST: String(test) },
-        preopens: { '/': process.cwd() },
+        preopens: { '/': process.cwd(), ...temporary },
         returnOnExit: true,
     });
     const imports = { wasi_snapshot_preview1: wasi.wasiImport };

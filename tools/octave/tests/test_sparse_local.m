@@ -216,6 +216,11 @@ function rows_held()
     assert(P.count == 3);
     P.release([1, 3]);
     assert(P.count == 1);
+    R = F.constraints();
+    assert(R.count == 0);
+    near(R.solve(b, zeros(0, 1)), F \ b, 1e-12);
+    R.add([5, 70]);
+    near(R.solve(b, [1; 2]), x, 1e-12);
     x = P.solve([b, -b], [3, -3]);
     near(x(70, :), [3, -3], 1e-12);
     Q = F.plan([1, 2], [71, 70]);
@@ -279,7 +284,7 @@ function options()
     sets = {{'ordering', 'nd'}, {'ordering', 'mindeg'}, {'ordering', 'natural'}, ...
             {'perm', n:-1:1}, ...
             {'purpose', 'one factor'}, {'purpose', 'many solves'}, {'triangle', 'upper'}, ...
-            {'triangle', 'lower'}, {'triangle', 'both'}, {'block_size', 2}, {'threads', 2}, ...
+            {'triangle', 'lower'}, {'triangle', 'auto'}, {'block_size', 2}, {'threads', 2}, ...
             {'definite', true}, {'definite', 0}, {'null_tolerance', -1}, {'growth_limit', 100}, ...
             {'error_limit', 1e-6}, {'consistency_tolerance', 1e-3}, {'storage', 'double'}};
     for k = 1:numel(sets)
@@ -292,6 +297,9 @@ function options()
     refused('inaccurate', 'growth', @() sparse_local(A, 'growth_limit', 0.5));
     refused('argument', 'ordering is one of', @() sparse_local(A, 'ordering', 'amd'));
     refused('argument', 'ordering is one of', @() sparse_local(A, 'ordering', 3));
+    refused('argument', 'excludes', @() sparse_local(A, 'ordering', 'nd', 'perm', n:-1:1));
+    refused('argument', 'excludes', @() sparse_local(A, 'perm', n:-1:1, 'ordering', 'nd'));
+    refused('argument', 'auto|lower|upper', @() sparse_local(A, 'triangle', 'both'));
     refused('argument', 'one number', @() sparse_local(A, 'growth_limit', [1, 2]));
     refused('argument', 'whole number', @() sparse_local(A, 'threads', 1.5));
     refused('argument', 'option 2', @() sparse_local(A, 'threads', 1, 'color', 2));
@@ -329,8 +337,8 @@ function messages()
     refused('mismatch', '', @() sparse_local_mex('plan_solve', F.id, P.id, 1));
     F.close();
     F.close();
-    refused('argument', 'closed', @() F.solve(1));
-    refused('argument', 'closed', @() F.info());
+    refused('stale', 'closed', @() F.solve(1));
+    refused('stale', 'closed', @() F.info());
 end
 
 function names()

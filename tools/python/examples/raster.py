@@ -336,14 +336,19 @@ def record_path(options, step):
     return path_of(options, step + ".json")
 
 
+def write_json(path, content):
+    """A file that is complete whenever this program is killed."""
+    with open(path + ".part", "w") as file:
+        json.dump(content, file, indent=1)
+    os.replace(path + ".part", path)
+
+
 def run_step(options):
     """What the process of a step does."""
     limit = 0 if options.step in ("dask", "mpi", "processes") else options.memory * GIB
     with MemoryLimit(options.folder, int(limit)):
         record = STEPS[options.step](options)
-    with open(record_path(options, options.step) + ".part", "w") as file:
-        json.dump(record, file)
-    os.replace(record_path(options, options.step) + ".part", record_path(options, options.step))
+    write_json(record_path(options, options.step), record)
 
 
 def shared_bytes(pid):
@@ -455,8 +460,7 @@ def main():
             records["killed factor"] = record
             record, _ = do(step, options)
         records[step] = record
-        with open(steps_path, "w") as file:
-            json.dump(records, file, indent=1)
+        write_json(steps_path, records)
         print("%s: %.4g s" % (step, records[step]["seconds"]), flush=True)
     for name, text in (("raster.machine.txt", machine(options, records)),
                        ("raster.csv", table(records))):

@@ -27,7 +27,7 @@ def weights(handle):
         w = C.solve(None, np.array(values))
         spent[0] += process_time() - began
         began = process_time()
-        again = sparse_local.FixedRows(Q, held, definite=True).solve(np.array(values))
+        again = sparse_local.FixedRows(Q, held, definite=True).solve(None, np.array(values))
         spent[1] += process_time() - began
         difference, force = max(difference, np.abs(w - again).max()), Q @ w
         # Rows outside the bounds are held at them where they are farther out than their neighbors:

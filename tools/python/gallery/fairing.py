@@ -13,7 +13,7 @@ Q = (L @ sp.diags(1 / M.diagonal()) @ L).tocsc()
 Q = ((Q + Q.T) / 2).tocsc()
 is_free = points @ ARMS[0] > 0.8
 fixed = np.flatnonzero(~is_free)
-faired = sparse_local.FixedRows(Q, fixed, definite=True).solve(points[fixed])
+faired = sparse_local.FixedRows(Q, fixed, definite=True).solve(None, points[fixed])
 residual = np.abs((Q @ faired)[is_free]).max() / np.abs(Q @ points)[is_free].max()
 
 # Flow [Kazhdan et al. 2012]: L stays, the masses follow the surface, and the factor is refilled.

@@ -21,7 +21,7 @@ corners = [points[:, 0].argmin(), points[:, 0].argmax(), points[:, 1].argmin(),
            points[:, 1].argmax(), 0, 45]
 for pins in corners[:2], corners:
     rows = np.r_[pins, np.add(pins, n)]
-    layout = sparse_local.FixedRows(K, rows).solve(points[pins, :2].T.ravel())
+    layout = sparse_local.FixedRows(K, rows).solve(None, points[pins, :2].T.ravel())
     free = np.setdiff1d(np.arange(2 * n), rows)
     residual = np.abs((K @ layout)[free]).max()
     u, v = layout.reshape(2, n)[:, triangles]

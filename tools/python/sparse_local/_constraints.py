@@ -4,7 +4,7 @@ import ctypes
 import numpy as np
 
 from . import _arrays as arrays
-from ._errors import ArgumentError, PivotError
+from ._errors import ArgumentError, Error, PivotError, UnsupportedError
 from ._fixed import FixedRows
 from ._library import Handle, Stats, as_dict, check, lib
 
@@ -29,7 +29,7 @@ class Constraints:
     Threads   add, release and refactor need the pins for themselves; solve does not.
     """
 
-    def __init__(self, factor, rows=(), A=None):
+    def __init__(self, factor, rows=(), *, A=None):
         pointer = ctypes.c_void_p()
         check(lib.sl_constraints_create(ctypes.byref(pointer), factor._pointer, None))
         self._factor, self._lib = factor, factor._lib
@@ -66,8 +66,9 @@ class Constraints:
             raise ArgumentError("a set of rows is needed")
         stats, width = Stats(), self._factor._kind.width
         self._factor._pointer
-        new = [int(row) for row in np.asarray(rows).ravel()] if self._A is not None else []
-        if self._is_many or (new and not self._equalities and self._count + len(new) > MANY):
+        new = [int(row) for row in np.asarray(rows).ravel()]
+        if self._is_many or (self._A is not None and new and not self._equalities and
+                             self._count + len(new) > MANY):
             return self._fix(self._rows + new)
         self._done(self._lib.sl_constraints_add(
             self._held.pointer, address, None, count, ctypes.byref(stats)), stats,
@@ -82,15 +83,15 @@ class Constraints:
         if len(set(rows)) < len(rows):
             raise PivotError("a row is held already")
         if not self._is_many:
-            self._is_many = True
             self._release(range(self._count))
+            self._is_many = True
         self._rows, self._count, self._fixed = rows, len(rows), None
         self.stats = {"count": len(rows)}
         return self
 
     def _add_equality(self, rows, values):
         if self._factor._kind is arrays.COMPLEX:
-            raise ArgumentError("equalities are those of real matrices")
+            raise UnsupportedError("equalities on a factor of a complex matrix")
         keep, address, count = arrays.rows(rows)
         if keep is None or not count:
             raise ArgumentError("an equality needs rows")
@@ -121,9 +122,14 @@ class Constraints:
             self._fix(left)
         else:
             self._check_current()
+            before = self._rows, self._count, self._fixed, self._is_many
             self._rows, self._count, self._fixed, self._is_many = [], 0, None, False
-            if left:
-                self.add(left)
+            try:
+                if left:
+                    self.add(left)
+            except Error:  # pins may need more than a factor of the other rows
+                self._rows, self._count, self._fixed, self._is_many = before
+                raise
         return self
 
     def _check_current(self):
@@ -154,7 +160,7 @@ class Constraints:
         self.stats = kept if self._is_many else self.stats
         return self
 
-    def solve(self, B, values, plan=None):
+    def solve(self, B, values, *, plan=None):
         """x with A x = B in all other rows and x = values in the pinned ones.
 
         B       (n,) or (n, count); None: zeros. With a plan its rows are those of the plan's bset.
@@ -183,9 +189,9 @@ class Constraints:
             self._check_current()
             if self._fixed is None:
                 skips = factor.stats["factor"]["null"] > 0
-                self._fixed = FixedRows(self._A, self._rows,
+                self._fixed = FixedRows(self._A, self._rows, triangle=factor.analysis._triangle,
                                         null_pivots="skip" if skips else "refuse")
-            return self._fixed.solve(held, B)
+            return self._fixed.solve(B, held)
         # column-major: pins take no rows of right-hand sides
         dense = kind.dense(np.asfortranarray(B), n_b, n_x)
         right = kind.dense(np.asfortranarray(held), self._count, self._count)

@@ -4,7 +4,7 @@ import ctypes
 import numpy as np
 
 from . import _arrays as arrays
-from ._errors import ArgumentError
+from ._errors import ArgumentError, UnsupportedError
 from ._library import Handle, Stats, check, lib
 from ._matrix import csc_arrays, from_arrays
 
@@ -83,7 +83,7 @@ class Entries:
         Cost: a local solve.
         """
         if self._kind is arrays.COMPLEX:
-            raise ArgumentError("bilinear forms are those of real matrices")
+            raise UnsupportedError("bilinear forms of a complex matrix; use local")
         keep, _, count = arrays.rows(cset)
         values = arrays.vector(c, self.n if cset is None else count, "c")
         arrays.check_finite(values, "c", keep)

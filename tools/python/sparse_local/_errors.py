@@ -9,8 +9,9 @@ class Error(Exception):
     """A failed call. row and column are those of the matrix (of its transpose for CSR), or None.
 
     status  the name of the library for it, such as 'PIVOT'; '' where the class is of several.
+    failed  the number of the factor or request, where a call has many; None elsewhere.
     """
-    status = ""
+    status, failed = "", None
 
     def __init__(self, text, row=None, column=None, value=0.0, advice=None):
         self.row = row

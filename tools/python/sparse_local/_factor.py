@@ -28,9 +28,9 @@ class Factor(Solves, Entries, Changes, Files):
               values are not copied. A matrix that stores both triangles has to be symmetric, which
               is checked.
     triangle  'lower' or 'upper': reads this triangle only, and ignores the other.
-    ordering  'nd' (nested dissection), 'mindeg' (approximate minimum degree), 'natural', 'given'
-              (perm), 'metis' if the library was compiled with METIS.
-    perm      n row numbers: perm[k] is pivot k; implies 'given'.
+    ordering  'nd' (nested dissection, the default), 'mindeg' (approximate minimum degree),
+              'natural', 'given' (perm), 'metis' if the library was compiled with METIS.
+    perm      n row numbers: perm[k] is pivot k; without ordering, or with 'given'.
     purpose   'many solves', or 'one factor': the first factor as early as possible.
     threads   number of threads for the analysis, factorizations and full solves; None: one. Results
               have the same bits for any number.
@@ -48,7 +48,8 @@ class Factor(Solves, Entries, Changes, Files):
                     component, such as the 3 or 6 rigid motions of an elastic body; with mass,
                     solutions have sum m z x = 0 for each of these vectors z.
     pivoted         True: 1x1 and 2x2 pivots are chosen by the values of A, as indefinite matrices
-                    need; not with null_pivots='skip', and without entries of the inverse.
+                    need; not with null_pivots='skip', and without entries of the inverse. refactor
+                    keeps them: make a new Factor where refine with 0 steps finds a large error.
     regularization  see sparse_local.h; 1e-8 suits refinement. signs: n signs of the pivots.
     growth_limit, error_limit  see sparse_local.h; 0: the defaults.
     scratch         a folder: arrays of 16 MB and more are mapped files there, without a name, which

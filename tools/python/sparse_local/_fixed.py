@@ -85,11 +85,11 @@ class FixedRows:
         self.stats = as_dict(stats.fixed)
         return self
 
-    def solve(self, values, B=None):
+    def solve(self, B, values):
         """x with A x = B in the free rows, and x = values in the fixed ones.
 
-        values  (fixed rows,) or (fixed rows, count), in the order of rows.
         B       (n,) or (n, count), of which fixed rows are not used; None: zeros.
+        values  (fixed rows,) or (fixed rows, count), in the order of rows.
         Returns (n,) or (n, count). Cost: a full solve of the free rows.
         NotFiniteError: values or B; StateError: a failed refactor.
         """

@@ -192,7 +192,7 @@ def from_arrays(shape, p, i, x):
     return scipy.sparse.csc_matrix((x, i, p), shape=shape)
 
 
-def from_triplets(rows, columns, values, n):
+def from_triplets(n, rows, columns, values):
     """The n x n matrix with values[k] at (rows[k], columns[k]); equal positions are summed.
 
     Of a symmetric matrix one triangle is enough. Without SciPy the result is a tuple with the

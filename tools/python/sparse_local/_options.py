@@ -2,7 +2,7 @@
 import numpy as np
 
 from . import _arrays as arrays
-from ._errors import ArgumentError
+from ._errors import ArgumentError, UnsupportedError
 from ._library import new_options
 from ._scratch import set_scratch
 from ._threads import set_threads
@@ -36,14 +36,16 @@ class Chosen:
         self._is_complex = is_complex
         self._kept = []
 
-    def analysis(self, ordering="nd", perm=None, block_size=0, purpose="many solves",
+    def analysis(self, ordering=None, perm=None, block_size=0, purpose="many solves",
                  threads=None, scratch=None):
         """Sets what the analysis reads."""
         options = self.options
-        options.ordering = choice(ORDERINGS, "given" if perm is not None else ordering, "ordering")
+        if ordering is None:
+            ordering = "nd" if perm is None else "given"
+        options.ordering = choice(ORDERINGS, ordering, "ordering")
         options.purpose = choice(_PURPOSES, purpose, "purpose")
-        if options.ordering == ORDERINGS["given"] and perm is None:
-            raise ArgumentError("ordering 'given' needs perm")
+        if (ordering == "given") != (perm is not None):
+            raise ArgumentError("ordering 'given' needs perm, and perm no other ordering")
         options.block_size = block_size
         if self._is_complex:
             options.block_size = 2 * max(block_size, 1)
@@ -71,7 +73,7 @@ class Chosen:
             count = options.null_vector_count = np.shape(null_vector)[1]
             null_vector = np.ravel(null_vector, order="F")
         if self._is_complex and (mass is not None or null_vector is not None):
-            raise ArgumentError("mass and null_vector are options of real matrices")
+            raise UnsupportedError("mass and null_vector of a complex matrix")
         self._array("mass", mass, np.float64)
         self._array("null_vector", null_vector, np.float64, count)
         if signs is not None and self._is_complex:

@@ -6,8 +6,9 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._arrays import DOUBLE, address, is_plain
-from ._library import Handle, Stats, as_dict, check, lib, new_options
 from ._errors import MismatchError
+from ._files import check_limit
+from ._library import Handle, Stats, as_dict, check, lib, new_options
 from ._options import choice
 
 _PARTS = {"P": 1, "L": 2, "D": 4, "sqrtD": 8, "LT": 16, "PT": 32}
@@ -19,20 +20,21 @@ class Region:
     After factor.refactor call refactor(); until then plans in the region raise StateError. Use it
     by factor.plan(bset, xset, region=R), with both sets inside the region.
 
-    bytes  upper bound on the memory of a region with a boundary; 0: none.
+    max_bytes  upper bound on the memory of a region with a boundary; None: any.
     InaccurateError: solves would lose digits, as pivots have both signs; UnsupportedError: a factor
     with mass or with 2x2 pivots. Cost: forward sweeps from its boundary.
     """
 
-    def __init__(self, factor, rows, bytes=0):
+    def __init__(self, factor, rows, *, max_bytes=None):
         keep, first, count = factor._kind.set(rows)
         options, pointer, stats = new_options(), ctypes.c_void_p(), Stats()
-        options.region_bytes = bytes
+        check_limit(max_bytes, "max_bytes")
+        options.region_bytes = 0 if max_bytes is None else max(max_bytes, 1)
         check(lib.sl_region_create(ctypes.byref(pointer), factor._pointer, first, count, None,
                                    ctypes.byref(options), ctypes.byref(stats)), stats,
               factor._kind.width)
         self._own(factor, pointer.value)
-        self._made_with = _rows_of_user(factor, keep), bytes
+        self._made_with = _rows_of_user(factor, keep), max_bytes
 
     def _own(self, factor, pointer):
         self._factor = factor
@@ -43,7 +45,7 @@ class Region:
         """A pickle is the factor and the rows."""
         if self._made_with is None:
             raise TypeError("a region of a file is not pickled: Region(factor, rows) is")
-        return Region, (self._factor,) + self._made_with
+        return _unpickled_region, (self._factor,) + self._made_with
 
     def refactor(self):
         """Computes the region again from the present numbers of the factor."""
@@ -63,7 +65,7 @@ class Plan:
     is the same plan for another factor of it.
     """
 
-    def __init__(self, factor, bset, xset, region=None):
+    def __init__(self, factor, bset, xset, *, region=None):
         keep_b, b_rows, nb = factor._kind.set(bset)
         keep_x, x_rows, nx = factor._kind.set(xset)
         options, width = new_options(), factor._kind.width
@@ -84,7 +86,7 @@ class Plan:
     def __reduce__(self):
         """A pickle is the factor, the rows and the region."""
         sets = (_rows_of_user(self._factor, rows) for rows in (self._bset, self._xset))
-        return Plan, (self._factor, *sets, self._region)
+        return _unpickled_plan, (self._factor, *sets, self._region)
 
     def on(self, factor):
         """This plan for another factor of the same analysis; nothing is computed."""
@@ -115,7 +117,7 @@ class Plan:
         return dense.X
 
     def solve_bounded(self, B):
-        """x as solve returns it, and a bound for the error of each number.
+        """x as solve returns it, and a bound for the error of each number. EXPERIMENTAL, as in C.
 
         The factor has been certified: Factor.certify. Of complex numbers the bounds are those of
         their real and imaginary parts. The first call computes what the bounds need
@@ -135,7 +137,7 @@ class Plan:
                                         ctypes.byref(stats)), stats)
         return dense.X, bounds
 
-    def solve_regularized(self, B, steps=2):
+    def solve_regularized(self, B, *, steps=5):
         """(x, error): x as solve returns it, without what regularization changed, by at most steps
         corrections; error is the backward error that is left.
 
@@ -188,6 +190,14 @@ class Plan:
         stats = Stats()
         lib.sl_plan_stats(self._plan.pointer, ctypes.byref(stats))
         return as_dict(stats.plan)
+
+
+def _unpickled_region(factor, rows, max_bytes):
+    return Region(factor, rows, max_bytes=max_bytes)
+
+
+def _unpickled_plan(factor, bset, xset, region):
+    return Plan(factor, bset, xset, region=region)
 
 
 def _rows_of_user(factor, rows):

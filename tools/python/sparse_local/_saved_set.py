@@ -85,7 +85,7 @@ class Selected:
 Loaded = namedtuple("Loaded", "factor selected regions")
 
 
-def save_set(path, factor, selected=None, regions=()):
+def save_set(path, factor, *, selected=None, regions=()):
     """Writes a factor with a Selected and Regions of its present numbers to a file.
 
     load_set reads all of it; Factor.load, and every other program, the factor alone. StateError:

@@ -5,7 +5,7 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._analysis import Analysis
-from ._errors import ArgumentError, Error
+from ._errors import ArgumentError, Error, UnsupportedError
 from ._factor import Factor
 from ._library import Csc, Handle, Request, Stats, check, lib, new_options
 from ._matrix import Matrix, csc_arrays, from_arrays
@@ -31,7 +31,7 @@ class Sum:
         views = [Matrix(A) for A in terms]
         for view in views:
             if view.is_complex:
-                raise TypeError("sums are those of real matrices")
+                raise UnsupportedError("sums of complex matrices")
             view.check_symmetric()
         self._views = views
         union = self._added(None)

@@ -20,7 +20,7 @@ _INCONSISTENT = 11  # SL_ERR_INCONSISTENT
 class Solves:
     """What Factor inherits: solves."""
 
-    def solve(self, B, rows=None):
+    def solve(self, B, *, rows=None):
         """X with A X = B; B has the shape (n,) or (n, count), and so has X.
 
         B     float64 is used in place, in either order; complex is allowed. A sparse B (n, count)
@@ -111,17 +111,17 @@ class Solves:
             check(status, stats, width)
         return dense.X
 
-    def plan(self, bset, xset, region=None):
+    def plan(self, bset, xset, *, region=None):
         """Prepares local solves with these sets; valid after every refactor."""
-        return Plan(self, bset, xset, region)
+        return Plan(self, bset, xset, region=region)
 
-    def region(self, rows, bytes=0):
+    def region(self, rows, *, max_bytes=None):
         """A part of the matrix in which local solves do not depend on the rest; see Region."""
-        return Region(self, rows, bytes)
+        return Region(self, rows, max_bytes=max_bytes)
 
-    def constraints(self, rows=(), A=None):
+    def constraints(self, rows=(), *, A=None):
         """Pins: rows that solves hold at given values, on top of this factor; see Constraints."""
-        return Constraints(self, rows, A)
+        return Constraints(self, rows, A=A)
 
     def solve_part(self, parts, B):
         """X = P' L'^-1 D^-1 L^-1 P B with only the parts that are named, as 'P L' or ['LT', 'PT'].
@@ -142,7 +142,7 @@ class Solves:
         check(call(self._pointer, *plan, part_bits(parts), *dense.arguments(), self._work()))
         return dense.X
 
-    def sample(self, count=None, rng=None, *, pseudo=True):
+    def sample(self, count=None, *, rng=None, pseudo=True):
         """Samples of the normal distribution with mean 0 and covariance A^-1, for a definite A, or
         A^+, for a semidefinite one: such samples have no part in the null space.
 
@@ -158,7 +158,7 @@ class Solves:
         samples = self.solve_part("sqrtD LT PT", normal)
         return samples if nulls is None else nulls.project(samples)
 
-    def refine(self, A, X, B, steps=2):
+    def refine(self, A, X, B, *, steps=5):
         """Improves X, a solution of A X = B, by at most steps corrections; returns a new X and the
         backward error that remains.
 
@@ -177,9 +177,9 @@ class Solves:
             right.count, steps, self._work(), ctypes.byref(stats)), stats)
         return right.shaped(out), stats.refine.backward_error
 
-    def certify(self, A, certainty="estimated"):
+    def certify(self, A, *, certainty="estimated"):
         """Finds eta, the largest relative error of any solve in the energy norm of A, which
-        Plan.solve_bounded needs; A is the factored matrix. Returns eta.
+        Plan.solve_bounded needs; A is the factored matrix. Returns eta. EXPERIMENTAL, as in C.
 
         certainty  'estimated': from errors that are measured, 15 to 45 full solves; 'guaranteed': a
                    proved bound, much larger, 7 to 10 factorizations.

@@ -26,6 +26,8 @@ from ._matrix import from_triplets
 from ._options import split
 from .gradients import Stored, _check_kind, _compressed, pairs_gradient
 
+__all__ = ["System", "local_solve"]
+
 
 class _Values:
     """A matrix with the pattern of another and values of its own."""
@@ -54,7 +56,7 @@ class System:
     def __init__(self, A, **options):
         if isinstance(A, torch.Tensor):
             i, j = (s.numpy() for s in _indices(A))
-            A = from_triplets(i, j, _stored_values(A).detach().numpy(), A.shape[0])
+            A = from_triplets(A.shape[0], i, j, _stored_values(A).detach().numpy())
         analysis, self._numbers = split(options)
         self._stored = Stored(A, analysis.get("triangle"))
         self._pattern = _compressed(A)

@@ -24,6 +24,8 @@ from ._factor import Factor
 from ._matrix import Matrix, from_triplets
 from ._saved_set import Selected
 
+__all__ = ["solve_gradient", "logdet_gradient", "pairs_gradient", "LocalGradient", "Stored"]
+
 _SOLVED = 128  # columns of G up to which solves take less time than a factor of twice the size
 _TOGETHER = 64  # columns of such a solve
 _STEP = 1e-60  # its square is nothing beside 1, and its third power a normal number
@@ -40,7 +42,7 @@ class Stored:
         A = _compressed(A)
         view = Matrix(A, is_ordered=False)
         if view.is_complex:
-            raise TypeError("derivatives are those of real matrices")
+            raise UnsupportedError("derivatives by a complex matrix")
         p, i = np.asarray(A.indptr), np.asarray(A.indices)
         j = np.repeat(np.arange(len(p) - 1), np.diff(p))
         self.rows, self.columns = (j, i[:j.size]) if view.is_turned else (i[:j.size], j)
@@ -72,7 +74,7 @@ def _compressed(A):
 
 def _check_kind(factor):
     if factor._kind is arrays.COMPLEX:
-        raise TypeError("derivatives are those of real matrices")
+        raise UnsupportedError("derivatives by a complex matrix")
     if factor._has_mass:
         raise UnsupportedError("derivatives of solutions with mass")
 
@@ -167,9 +169,10 @@ def _by_twins(factor, A, stored, rows, columns, g):
     g = np.where(r == c, 1.0, 0.5) * (g / size) * t
     apart = r > c
     twins = from_triplets(
+        2 * factor.n,
         np.concatenate([2 * i, 2 * i + 1, 2 * i + 1, 2 * i[off], 2 * r + 1, 2 * r[apart]]),
         np.concatenate([2 * j, 2 * j + 1, 2 * j, 2 * j[off] + 1, 2 * c, 2 * c[apart] + 1]),
-        np.concatenate([values, values, zeros, zeros[off], g, g[apart]]), 2 * factor.n)
+        np.concatenate([values, values, zeros, zeros[off], g, g[apart]]))
     order = np.stack([2 * factor.perm, 2 * factor.perm + 1], axis=1).ravel()
     inverse = Selected(Factor(twins, perm=order, threads=factor._threads))
     found = inverse.entries(2 * stored.rows + 1, 2 * stored.columns)

@@ -6,6 +6,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from sparse_local import Factor, Selected
 
+__all__ = ["solve_gradient", "logdet_gradient", "pairs_gradient", "LocalGradient", "Stored"]
+
 class Stored:
     rows: NDArray[np.integer[Any]]
     columns: NDArray[np.integer[Any]]

@@ -43,7 +43,7 @@ class SymmetricLU:
             raise ValueError("trans is 'N', 'T' or 'H', not %r" % (trans,))
         b = b if sparse.issparse(b) else np.asarray(b)
         is_conjugate = trans == "T" and self._dtype.kind == "c"  # A' is the conjugate of A
-        x = self.factor.solve(b.conj() if is_conjugate else b, rows)
+        x = self.factor.solve(b.conj() if is_conjugate else b, rows=rows)
         return (x.conj() if is_conjugate else x).astype(
             np.result_type(self._dtype, b.dtype, np.float32), copy=False)
 

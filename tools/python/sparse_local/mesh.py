@@ -6,7 +6,7 @@ import numpy as np
 
 from ._errors import ArgumentError
 
-FLATNESS = 1.5e-8  # the square root of epsilon, as in sparse_local_mesh.h
+_FLATNESS = 1.5e-8  # the square root of epsilon, as in sparse_local_mesh.h
 
 __all__ = ["laplacian", "boundary"]
 
@@ -43,7 +43,7 @@ def laplacian(points, triangles):
     for k in range(3):
         i, j, o = (k + 1) % 3, (k + 2) % 3, k
         dots = ((p[:, i] - p[:, o]) * (p[:, j] - p[:, o])).sum(axis=1)
-        half = np.divide(dots, 2 * twice, out=np.zeros(len(p)), where=twice > FLATNESS * longest)
+        half = np.divide(dots, 2 * twice, out=np.zeros(len(p)), where=twice > _FLATNESS * longest)
         rows.append(triangles[:, i])
         columns.append(triangles[:, j])
         weights.append(half)

@@ -14,6 +14,8 @@ from scipy import sparse
 from ._errors import Error, PivotError
 from ._factor import Factor
 
+__all__ = ["Solver"]
+
 
 class Solver:
     """L D L' of a square quasi-definite matrix: D has both signs.

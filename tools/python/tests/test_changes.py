@@ -122,6 +122,32 @@ def test_many_held_rows_of_one_component_of_two():
             F.constraints(range(count), A=A).solve(b + 1, np.ones(count))
 
 
+def test_many_held_rows_join_those_before_the_matrix():
+    A = grid(30, 0.5)
+    P = sl.Factor(A).constraints([0, 1]).refactor(A).add(np.arange(10, 450))
+    rows, values = np.r_[0, 1, 10:450], right_hand_sides(442)
+    assert len(P) == 442 and P._is_many
+    assert np.allclose(P.solve(None, values), held(A, rows, np.zeros(900), values), atol=1e-12)
+
+
+def test_many_held_rows_read_the_triangle_of_the_factor():
+    A, rows, values = grid(30, 0.5), np.arange(450), right_hand_sides(450)
+    one = sp.csc_matrix(sp.tril(A) + 3 * sp.triu(A, 1))
+    P = sl.Factor(one, triangle="lower").constraints(rows, A=one)
+    assert np.allclose(P.solve(None, values), held(A, rows, np.zeros(900), values), atol=1e-12)
+
+
+def test_many_held_rows_stay_where_pins_are_refused():
+    scale = sp.diags(1.0 / (1 + np.arange(900) % 3))
+    A = (scale @ grid(30, 0.0) @ scale).tocsc()  # its null vector is not told
+    P = sl.Factor(A, null_pivots="skip").constraints(range(450), A=A)
+    values = right_hand_sides(450)
+    x = P.solve(None, values)
+    with pytest.raises(sl.UnsupportedError):
+        P.release(range(300))
+    assert len(P) == 450 and np.array_equal(P.solve(None, values), x)
+
+
 def test_equalities_and_singular_systems():
     A = grid(8, 0.0)
     F = sl.Factor(A, null_pivots="skip")

@@ -88,7 +88,7 @@ def test_objects():
     assert np.allclose(G.solve(b), np.linalg.solve(DENSE[np.ix_([9, 3, 5, 4], [9, 3, 5, 4])], b))
     again = pickle.loads(pickle.dumps(F))
     assert np.array_equal(again.solve(vectors(N)), F.solve(vectors(N)))
-    X = F.sample(20000, np.random.default_rng(0))
+    X = F.sample(20000, rng=np.random.default_rng(0))
     assert abs(X @ X.conj().T / 20000 - inverse).max() < 0.05 * abs(inverse).max()
 
 
@@ -104,8 +104,12 @@ def test_refusals():
     diagonal.data[0] += 1j
     with pytest.raises(sl.ArgumentError):
         sl.Factor(diagonal)
-    with pytest.raises(sl.UnsupportedError):
-        F.change_entries(H, was=H)
+    for call in (lambda: F.change_entries(H, was=H), lambda: F.rank_update(sp.csc_matrix((N, 1))),
+                 lambda: F.bilinear(None, np.ones(N), None, np.ones(N)), lambda: sl.Sum([H]),
+                 lambda: F.constraints().add([0, 1], [1.0, 1.0]),
+                 lambda: sl.Factor(H, mass=np.ones(N))):
+        with pytest.raises(sl.UnsupportedError):
+            call()
     with pytest.raises(sl.ArgumentError):
         F.local([N], [1.0], [0])
     with pytest.raises(TypeError):

@@ -176,6 +176,7 @@ def wrong_uses(tmp_path):
         "ordering": lambda: sl.Factor(A, ordering="no"),
         "METIS": lambda: sl.Factor(A, ordering="metis"),
         "given without perm": lambda: sl.Factor(A, ordering="given"),
+        "perm with another ordering": lambda: sl.Factor(A, ordering="nd", perm=np.arange(n)),
         "perm twice": lambda: sl.Factor(A, perm=np.zeros(n, int)),
         "perm out of range": lambda: sl.Factor(A, perm=np.arange(1, n + 1)),
         "purpose": lambda: sl.Factor(A, purpose="no"),
@@ -256,20 +257,23 @@ def wrong_uses(tmp_path):
         "certify another matrix": lambda: F.certify(3 * A),
         "certify with 2x2 pivots": lambda: pivoted.certify(kkt),
         "certify both signs": lambda: sl.Factor(indefinite).certify(indefinite),
-        "guarantee with null pivots": lambda: S.certify(L, "guaranteed"),
-        "guarantee in float": lambda: sl.Factor(A, storage="float").certify(A, "guaranteed"),
-        "refine, steps": lambda: F.refine(A, np.ones(n), np.ones(n), -1),
+        "guarantee with null pivots": lambda: S.certify(L, certainty="guaranteed"),
+        "guarantee in float": lambda: sl.Factor(A, storage="float").certify(
+            A, certainty="guaranteed"),
+        "refine, steps": lambda: F.refine(A, np.ones(n), np.ones(n), steps=-1),
         "refine NaN": lambda: F.refine(A, nan_b, np.ones(n)),
         "refine locally": lambda: regularized.plan([0], [1]).solve_regularized([1.0]),
-        "refine locally, steps": lambda: F.plan([0], [1]).solve_regularized([1.0], -1),
+        "refine locally, steps": lambda: F.plan([0], [1]).solve_regularized(
+            [1.0], steps=-1),
         "entry that is not kept": lambda: sl.Selected(F, [0]).entries([0], [n - 1]),
         "selected out of range": lambda: sl.Selected(F, [n]),
         "selected of mapped": lambda: sl.load_set(
             saved_set(F, tmp_path), map=True).selected.refactor(),
-        "saved set out of date": lambda: sl.save_set(str(tmp_path / "x.slf"), changed, selected),
+        "saved set out of date": lambda: sl.save_set(str(tmp_path / "x.slf"), changed,
+                                                     selected=selected),
         "saved region out of date": lambda: sl.save_set(
-            str(tmp_path / "x.slf"), changed, None, [region]),
-        "saved set of two": lambda: sl.save_set(str(tmp_path / "x.slf"), F, selected),
+            str(tmp_path / "x.slf"), changed, regions=[region]),
+        "saved set of two": lambda: sl.save_set(str(tmp_path / "x.slf"), F, selected=selected),
         "failed": lambda: failed.solve(np.ones(n)),
         "failed plan": lambda: failed.plan([0], [1]).solve([1.0]),
         "failed, saved": lambda: failed.save(str(tmp_path / "x.slf")),
@@ -292,8 +296,8 @@ def wrong_uses(tmp_path):
         "fixed, block size": lambda: sl.FixedRows(A, [0], block_size=5),
         "fixed, pattern": lambda: fixed.refactor(other),
         "fixed, size": lambda: fixed.refactor(grid(5)),
-        "fixed, NaN": lambda: fixed.solve([1.0, NAN]),
-        "fixed, NaN in b": lambda: fixed.solve([1.0, 2.0], nan_b),
+        "fixed, NaN": lambda: fixed.solve(None, [1.0, NAN]),
+        "fixed, NaN in b": lambda: fixed.solve(nan_b, [1.0, 2.0]),
         "fixed, failed": lambda: failed_fixed(A).solve([1.0]),
         "sum of two sizes": lambda: sl.Sum([A, kkt]),
         "sum of a rectangle": lambda: sl.Sum([A[:, :5]]),
@@ -302,8 +306,8 @@ def wrong_uses(tmp_path):
         "sum by NaN": lambda: total.factor([1.0, NAN]),
         "sum, a factor twice": lambda: total.refactor([total.factor([1., 1.])] * 2,
                                                       [[1., 1.], [1., 1.]]),
-        "triplets": lambda: sl.from_triplets([0, 9], [0, 1], [1.0, 1.0], 2),
-        "triplets, negative size": lambda: sl.from_triplets([], [], [], -1),
+        "triplets": lambda: sl.from_triplets(2, [0, 9], [0, 1], [1.0, 1.0]),
+        "triplets, negative size": lambda: sl.from_triplets(-1, [], [], []),
         "Hermitian": lambda: sl.Factor(sp.csc_matrix(np.array([[1j, 0], [0, 1]]))),
         "batch": lambda: sl.solve_batch([(F, np.ones(n)), (S, np.ones(n))]),
         "batch, failed": lambda: sl.solve_batch([(failed, np.ones(n))]),
@@ -321,7 +325,7 @@ def plan_of(F, other):
 
 def saved_set(F, folder):
     path = str(folder / "set.slf")
-    sl.save_set(path, F, sl.Selected(F))
+    sl.save_set(path, F, selected=sl.Selected(F))
     return path
 
 

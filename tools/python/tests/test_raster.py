@@ -107,6 +107,22 @@ with open(os.path.join(sys.argv[1], "file"), "w+b") as file:
 """
 
 
+def test_records_are_complete(tmp_path):
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    np.save(tmp_path / "cells.npy", np.ones((6, 6)))
+    arguments = ["--raster", str(tmp_path / "cells.npy"), "--points", "5"]
+    results(folder, *arguments)
+    before = (folder / "steps.json").read_text()
+    with pytest.raises(TypeError):  # json.dump has written a part by then
+        raster.write_json(str(folder / "steps.json"), [1, object()])
+    assert (folder / "steps.json").read_text() == before
+    os.link(folder / "steps.json", tmp_path / "old")  # no step writes into the file that is there
+    (folder / "map.json").unlink()
+    results(folder, *arguments)
+    assert (tmp_path / "old").read_text() == before
+
+
 def test_the_limit(tmp_path):
     """Pages of a file leave the memory and keep what they have; other memory is refused."""
     out = subprocess.run([sys.executable, "-B", "-c", LIMITED, str(tmp_path), FOLDER],

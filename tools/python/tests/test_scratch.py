@@ -44,6 +44,25 @@ def test_the_same_factor(tmp_path, threads):
     assert not _scratch._blocks
 
 
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
+def test_a_child_does_not_change_its_parent(tmp_path):
+    A = grid(420)
+    with sl.Factor(A, scratch=tmp_path) as F:
+        assert _scratch._blocks
+        b = np.random.default_rng(1).normal(size=F.n)
+        x = F.solve(b)
+        child = os.fork()
+        if child == 0:
+            is_right = False
+            try:
+                is_right = np.array_equal(F.refactor(2.0 * A).solve(2.0 * b), x)
+                F.close()
+            finally:
+                os._exit(0 if is_right else 1)
+        assert os.waitpid(child, 0)[1] == 0
+        assert np.array_equal(F.solve(b), x)
+
+
 def test_refusals(tmp_path):
     for folder in (tmp_path / "none", __file__):
         with pytest.raises(sl.ArgumentError, match="scratch is a folder"):

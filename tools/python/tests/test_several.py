@@ -86,6 +86,9 @@ def test_sums_name_what_failed():
     with pytest.raises(sl.PivotError) as caught:
         S.refactor([F, G], [[1, 1], [0, 1]])
     assert caught.value.failed == 1 and F.solve(np.ones(36)).shape == (36,)
+    with pytest.raises(sl.ArgumentError) as caught:
+        F.solve(np.ones(35))
+    assert caught.value.failed is None
     with pytest.raises(sl.StateError):
         G.solve(np.ones(36))
     with pytest.raises(sl.StateError) as caught:
@@ -143,8 +146,8 @@ def test_sparse_right_hand_sides(A, F):
 
 
 def test_matrices_from_triplets():
-    T = sl.from_triplets([0, 1, 1, 1], [0, 0, 1, 1], [2.0, -1.0, 1.0, 1.0], 2)
+    T = sl.from_triplets(2, [0, 1, 1, 1], [0, 0, 1, 1], [2.0, -1.0, 1.0, 1.0])
     assert np.allclose(sl.Factor(T).solve([1.0, 0.0]), [2 / 3, 1 / 3])
     for wrong in (([2], [0], [1.0]), ([0, 1], [0], [1.0]), ([0], [0], [1.0, 2.0])):
         with pytest.raises(sl.ArgumentError):
-            sl.from_triplets(*wrong, 2)
+            sl.from_triplets(2, *wrong)

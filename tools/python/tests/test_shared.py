@@ -26,7 +26,8 @@ def test_a_mapped_factor_is_its_path(path):
     for protocol in range(2, 6):
         text = pickle.dumps(F, protocol)
         assert len(text) < 1000 and pickle.loads(text) is F  # open already
-    for query in (F.solve, F.diagonal, F.plan([1], [2]).solve, F.plan([1], [2], F.region([1, 2]))):
+    for query in (F.solve, F.diagonal, F.plan([1], [2]).solve,
+                  F.plan([1], [2], region=F.region([1, 2]))):
         assert len(pickle.dumps(query)) < 1000
     # a process that has not opened it opens it once
     key = F._source.key()

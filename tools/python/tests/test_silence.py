@@ -126,9 +126,9 @@ def test_columns_that_were_not_named():
                    lambda F: F.change_entries(B, rows=named, columns=named, deltas=[1.0])):
         F = sl.Factor(A)
         change(F)
-        assert F.refine(B, F.solve(b), b, 0)[1] > 1e-3
+        assert F.refine(B, F.solve(b), b, steps=0)[1] > 1e-3
     F = sl.Factor(A).change_entries(B, columns=[first, last])
-    assert F.refine(B, F.solve(b), b, 0)[1] < 1e-14
+    assert F.refine(B, F.solve(b), b, steps=0)[1] < 1e-14
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
@@ -267,7 +267,7 @@ def test_indices_that_overflow():
         for call in (lambda: F.local([row], [1.0], [3]), lambda: F.plan([1], [row]),
                      lambda: F.diagonal([row]), lambda: F.constraints([row]),
                      lambda: F.pairs([row], [1]),
-                     lambda: sl.from_triplets([row], [0], [1.0], 3)):
+                     lambda: sl.from_triplets(3, [row], [0], [1.0])):
             with pytest.raises((sl.TooLargeError, sl.ArgumentError)):
                 call()
     for name, at, value in (("indices", 5, 2**32), ("indices", 5, -1), ("indptr", 3, 2**32),
@@ -316,6 +316,6 @@ def test_options_that_are_not_numbers():
                   {"null_pivots": "skip", "mass": np.full(36, np.nan)},
                   {"null_pivots": "skip", "null_vector": np.full(36, np.inf)},
                   {"regularization": 1e-8, "signs": np.full(36, 3)}, {"block_size": 5},
-                  {"ordering": None}, {"purpose": 1}, {"storage": "half"}):
+                  {"ordering": 1}, {"purpose": 1}, {"storage": "half"}):
         with pytest.raises((sl.Error, TypeError)):
             sl.Factor(A, **wrong)

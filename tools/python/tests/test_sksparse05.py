@@ -329,14 +329,15 @@ def test_orders_and_separators(A):
 def test_versions_are_chosen_by_name():
     code = """
 import sparse_local
-sparse_local.stand_in("qdldl", "sksparse", "0.5.0")
+sparse_local.stand_in("qdldl")
+sparse_local.stand_in("sksparse", "0.5.0")
 from sksparse.cholmod import cho_factor, cholesky
 from sksparse.amd import amd
 import scipy.sparse as sp, numpy as np
 A = sp.csc_matrix([[4.0, 1.0], [1.0, 3.0]])
 R, p = cholesky(A)
 assert np.allclose((R.T @ R).toarray(), A[p][:, p].toarray()) and len(amd(A)) == 2
-for wrong in (("sksparse", "0.6"), ("0.5",), ("qdldl", "0.5")):
+for wrong in (("sksparse", "0.6"), ("0.5",), ("qdldl", "0.5"), ("qdldl", "sksparse")):
     try:
         sparse_local.stand_in(*wrong)
     except ValueError as error:

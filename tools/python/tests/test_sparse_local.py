@@ -135,6 +135,11 @@ def test_regions(A, F):
     b = right_hand_sides(4)
     assert plan.stats["in_region"] == 1 and R.stats["rows"] >= 4
     assert np.allclose(plan.solve(b), F.local(rows, b, rows), rtol=1e-12)
+    for most in (-1, 0.5):
+        with pytest.raises(sl.ArgumentError):
+            F.region(rows, max_bytes=most)
+    assert R.stats["boundary"] > 0 and F.region(rows, max_bytes=0).stats["boundary"] == 0
+    assert F.region(rows, max_bytes=10 ** 9).stats["boundary"] == R.stats["boundary"]
     F.refactor(2 * A)
     with pytest.raises(sl.StateError):
         plan.solve(b)
@@ -170,7 +175,7 @@ def test_saved_sets_have_the_same_bits(A, tmp_path, mapped, storage):
     rows, b = [205, 206, 225, 226], right_hand_sides(4)
     Z, R = sl.Selected(F), F.region(rows)
     path = tmp_path / "set.slf"
-    sl.save_set(path, F, Z, [R, F.region([3])])
+    sl.save_set(path, F, selected=Z, regions=[R, F.region([3])])
     G, Y, regions = sl.load_set(path, map=mapped, checks="verified")
     x = F.plan(rows, rows, region=R).solve(b)
     assert np.array_equal(G.plan(rows, rows, region=regions[0]).solve(b), x)
@@ -199,7 +204,7 @@ def test_sets_are_of_one_factor(A, F, tmp_path):
     other = sl.Factor(2 * A)
     for selected, regions in ((Z, ()), (None, [R])):
         with pytest.raises(sl.StateError):
-            sl.save_set(tmp_path / "x.slf", other, selected, regions)
+            sl.save_set(tmp_path / "x.slf", other, selected=selected, regions=regions)
     assert not (tmp_path / "x.slf").exists()
     F.save(tmp_path / "f.slf")
     G, selected, regions = sl.load_set(tmp_path / "f.slf")
@@ -245,7 +250,7 @@ def test_bounds_hold(A, F, certainty):
     B = right_hand_sides(3, 4)
     with pytest.raises(sl.StateError):
         plan.solve_bounded(B)
-    eta = F.certify(A, certainty)
+    eta = F.certify(A, certainty=certainty)
     assert 0 < eta < 1e-6
     full = np.zeros((400, 4))
     full[rows] = B
@@ -258,9 +263,9 @@ def test_bounds_hold(A, F, certainty):
             assert np.array_equal(x, plan.solve(b)) and bounds.shape == x.shape
             assert np.all(np.abs(x - wanted) <= bounds)
     with pytest.raises(sl.ArgumentError):
-        F.certify(A, "perhaps")
+        F.certify(A, certainty="perhaps")
     with pytest.raises(sl.InaccurateError if certainty == "estimated" else sl.StateError):
-        F.certify(2 * A, certainty)
+        F.certify(2 * A, certainty=certainty)
 
 
 def test_regularized_pivots_are_refined():
@@ -314,7 +319,7 @@ def test_local_halves(A, F):
 
 def test_samples_have_the_covariance_of_the_inverse():
     A = grid(4)
-    X = sl.Factor(A).sample(200000, np.random.default_rng(3))
+    X = sl.Factor(A).sample(200000, rng=np.random.default_rng(3))
     inverse = np.linalg.inv(A.toarray())
     assert np.abs(X @ X.T / 200000 - inverse).max() < 0.02 * inverse.max()
     assert sl.Factor(A).sample().shape == (16,)

@@ -34,7 +34,7 @@ import sparse_local as sl
 n = 30
 k = np.arange(n)
 values = np.r_[np.full(n, 2.5), np.full(n - 1, -1.0)]
-A = sl.from_triplets(np.r_[k, k[1:]], np.r_[k, k[:-1]], values, n)
+A = sl.from_triplets(n, np.r_[k, k[1:]], np.r_[k, k[:-1]], values)
 assert type(A) is sl.CscArrays and A.shape == (n, n)
 dense = np.zeros((n, n))
 for j in range(n):

@@ -10,7 +10,7 @@ F = sl.cholesky(L + 4.0 * M)
 variance = F.diagonal()  # all of the inverse's diagonal, by selected inversion
 assert np.allclose(F.diagonal([0, 820]), variance[[0, 820]])  # some, by forward sweeps
 
-samples = F.sample(4000, np.random.default_rng(0))
+samples = F.sample(4000, rng=np.random.default_rng(0))
 assert np.allclose(samples.var(axis=1), variance, rtol=0.15)
 sign, log = F.logdet()
 print("standard deviation %.3f in a corner, %.3f in the middle; log det %.1f" % (

@@ -26,7 +26,7 @@ print(repr(F.local([820], [1.0], [100])[0]))
     print("%d kB; another process says %s" % (os.path.getsize(path) // 1000, out.strip()))
 
     Z, region = sl.Selected(F), F.region(np.arange(200))
-    sl.save_set(path, F, Z, [region])  # with entries of the inverse and a region
+    sl.save_set(path, F, selected=Z, regions=[region])  # with entries of the inverse and a region
     G, Y, regions = sl.load_set(path, map=True)
     assert np.array_equal(Y.diagonal(), Z.diagonal())
     for mapped in (G, Y, regions):

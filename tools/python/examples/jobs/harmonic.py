@@ -10,7 +10,7 @@ border = boundary()
 
 angle = np.linspace(0, 2 * np.pi, len(border), endpoint=False)
 circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-flat = sl.FixedRows(L, border).solve(circle)  # both coordinates at once
+flat = sl.FixedRows(L, border).solve(None, circle)  # both coordinates at once
 
 inside = np.setdiff1d(np.arange(len(points)), border)
 assert np.array_equal(flat[border], circle) and abs((L @ flat)[inside]).max() < 1e-12
