@@ -94,6 +94,9 @@ C
 check "sparse_local.hpp: a full and a local solve" \
     "empty sparse_local.h sparse_local.hpp && $CXX -std=c++11 -Wall -Wextra -Werror -O1 -I. \
          ../raii.cpp ../bodies/bodies.o -o raii && ./raii"
+check "sparse_local.hpp: the bodies in the same file" \
+    "empty sparse_local.h sparse_local.hpp && $CXX -std=c++11 -Wall -Wextra -Werror -O0 -I. \
+         -DSL_NO_SIMD -DSPARSE_LOCAL_IMPLEMENTATION ../raii.cpp -o raii && ./raii"
 cat >symmetric.c <<'C'
 #define SL_WITH_ALL
 #include "sparse_local.h"
@@ -273,7 +276,8 @@ assert F.local([3], [1.0], [5])[0] == F.solve(b)[5]
 PYTHON
 check "the manual has its pages" \
     "empty \$(in_release manual) && tar -xzf *-manual.tar.gz && grep -q '<h1' manual/index.html &&
-     test -f manual/api.html -a -f manual/errors.html -a -f manual/search.js"
+     test -f manual/api.html -a -f manual/errors.html &&
+     node ../source/tests/web/test_search.mjs manual"
 check "the wheel for this system, with NumPy and SciPy of the system" \
     "empty && used \$(in_release manylinux) && $PYTHON -m pip install --quiet --no-index --no-deps \
          --root-user-action=ignore --disable-pip-version-check --only-binary=:all: \

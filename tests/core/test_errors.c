@@ -46,7 +46,7 @@ static const struct {
     {entry_below_0, SL_ERR_ARGUMENT,
      "invalid argument: a row or column is out of range (row 3, column -2, value -2)"},
     {triplet_from_1, SL_ERR_ARGUMENT,
-     "invalid argument: the triplet of this number, value, is out of range; rows count from 0 "
+     "invalid argument: a triplet is out of range; value is its number, and rows count from 0 "
      "(row 2, column 1, value 1)"},
     {infinite_b, SL_ERR_NOT_FINITE,
      "not a finite number: this number of B is not finite (row 1, column 1, value inf)"},

@@ -56,10 +56,10 @@ namespace sl {
 /** Result of a call: its sl_status, and where the error is. */
 class Status {
 public:
-  /** Of a call without stats, whose error is the last one of this thread. */
-  Status(sl_status code = SL_OK) : code_(code) {
-      clear();
-      if (code != SL_OK) read(nullptr);
+    /** Of a call without stats, whose error is the last one of this thread. */
+    Status(sl_status code = SL_OK) : code_(code) {
+        clear();
+        if (code != SL_OK) read(nullptr);
     }
     Status(sl_status code, const sl_stats &stats) : code_(code), where_(stats.error) {
         if (code != SL_OK) read(&stats);
@@ -98,17 +98,17 @@ public:
     }
 
 private:
-  void clear() {
-      where_.row = where_.column = -1;
-      where_.line = -1;
-      where_.value = 0;
-      where_.what = nullptr;
-  }
-  void read(const sl_stats *stats) {
-      text_.resize(sl_error_text(nullptr, 0, code_, stats) + 1);
-      sl_error_text(&text_[0], text_.size(), code_, stats);
-      text_.pop_back();
-  }
+    void clear() {
+        where_.row = where_.column = -1;
+        where_.line = -1;
+        where_.value = 0;
+        where_.what = nullptr;
+    }
+    void read(const sl_stats *stats) {
+        text_.resize(sl_error_text(nullptr, 0, code_, stats) + 1);
+        sl_error_text(&text_[0], text_.size(), code_, stats);
+        text_.pop_back();
+    }
 
     sl_status code_;
     sl_error where_;
@@ -160,6 +160,29 @@ protected:
     static const double *data_of(const std::vector<double> &v) {
         static const double nothing = 0;
         return v.empty() ? &nothing : v.data();
+    }
+    /* Overloads, not an argument of Handle: calls are hidden if the bodies are in the same file,
+     * and so would be the classes. */
+    static void release(sl_work *object) {
+        sl_work_free(object);
+    }
+    static void release(sl_matrix *object) {
+        sl_matrix_free(object);
+    }
+    static void release(sl_symbolic *object) {
+        sl_symbolic_free(object);
+    }
+    static void release(sl_factor *object) {
+        sl_factor_free(object);
+    }
+    static void release(sl_selected *object) {
+        sl_selected_free(object);
+    }
+    static void release(sl_region *object) {
+        sl_region_free(object);
+    }
+    static void release(sl_plan *object) {
+        sl_plan_free(object);
     }
 };
 } // namespace detail
@@ -214,7 +237,7 @@ private:
 };
 
 /** Owner of one object of the library. */
-template <class T, void (*release)(T *)> class Handle : protected detail::Calls {
+template <class T> class Handle : protected detail::Calls {
 public:
     Handle() noexcept : object_(nullptr) {
     }
@@ -258,7 +281,7 @@ private:
 };
 
 /** Workspace of one thread. */
-class Work : public Handle<sl_work, sl_work_free> {
+class Work : public Handle<sl_work> {
 public:
     SL_RESULT create(const sl_options *options = nullptr) {
         sl_work *made = nullptr;
@@ -279,7 +302,7 @@ inline sl_work *detail::Calls::work_of(const Work *work) {
 }
 
 /** A sparse matrix that the library owns. */
-class Matrix : public Handle<sl_matrix, sl_matrix_free> {
+class Matrix : public Handle<sl_matrix> {
 public:
     SL_RESULT from_triplets(sl_int n_rows, sl_int n_cols, const std::vector<sl_int> &i,
                             const std::vector<sl_int> &j, const std::vector<double> &x,
@@ -314,7 +337,7 @@ public:
 };
 
 /** The analysis of a pattern. */
-class Symbolic : public Handle<sl_symbolic, sl_symbolic_free> {
+class Symbolic : public Handle<sl_symbolic> {
 public:
     Symbolic() = default;
 #ifndef SL_NO_EXCEPTIONS
@@ -348,7 +371,7 @@ public:
 };
 
 /** L and D of one matrix. */
-class Factor : public Handle<sl_factor, sl_factor_free> {
+class Factor : public Handle<sl_factor> {
 public:
     Factor() = default;
 #ifndef SL_NO_EXCEPTIONS
@@ -475,7 +498,7 @@ private:
 };
 
 /** The selected inverse. */
-class Selected : public Handle<sl_selected, sl_selected_free> {
+class Selected : public Handle<sl_selected> {
 public:
     SL_RESULT create(const Factor &F, const Rows &set, const sl_options *options = nullptr) {
         sl_selected *made = nullptr;
@@ -490,7 +513,7 @@ public:
 };
 
 /** A part of the matrix in which the cost of local solves does not depend on the whole. */
-class Region : public Handle<sl_region, sl_region_free> {
+class Region : public Handle<sl_region> {
 public:
     Region() = default;
 #ifndef SL_NO_EXCEPTIONS
@@ -518,7 +541,7 @@ public:
 };
 
 /** A prepared local solve. */
-class Plan : public Handle<sl_plan, sl_plan_free> {
+class Plan : public Handle<sl_plan> {
 public:
     Plan() : nb_(0), nx_(0) {
     }

@@ -8,7 +8,7 @@
  * --declarations, --bodies  the two files of the pair: OUT has what is before the heading
  *           "---- bodies" of the manifest, or what follows it and an include of the other, which
  *           has the name of OUT with .h at its end. Both are flat.
- * --comments  keeps the comments of the implementation.
+ * --comments  keeps the comments of the implementation, except reasons why no test reaches a line.
  * --packs   the header has the core and these packs only; "" is the core.
  * --home    an address, in the first lines of the header; "" is none.
  * MANIFEST  the ordered list of parts; its other lines (guards, headings) are copied unchanged.

@@ -155,6 +155,11 @@ size_t banner(text *out, const job *j, size_t shift) {
         lines++;
     }
     lines += append_use(out, j);
+    if (j->keeps_comments) {
+        append_string(out, " * To be read from the top: it has the comments of the "
+                           "implementation.\n * It compiles, too: include it by this name.\n");
+        lines += 2;
+    }
     if (!j->keeps_comments && j->half != DECLARATIONS) {
         append_string(out, " * The comments of the implementation are in src/impl.\n");
         lines++;

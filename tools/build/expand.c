@@ -241,8 +241,7 @@ void expand(job *j, const char *path, int depth) {
     source s = {path, depth, 1, {{0, 0, 0}}, 0, 0};
     text part = {NULL, 0, 0};
     read_part(&part, j, path);
-    if (strncmp(path, "impl/", 5) == 0 && (is_list(path) || !j->keeps_comments))
-        drop_comments(&part);
+    if (strncmp(path, "impl/", 5) == 0) drop_comments(&part, j->keeps_comments && !is_list(path));
     const guard g = find_guard(part.bytes);
     const int is_spliced = is_list(path);
     const char *body = is_spliced  ? after_name(j, path, part.bytes)

@@ -53,13 +53,24 @@ static size_t copy_literal(text *to, const text *from, size_t at) {
     return end;
 }
 
-/* Returns the position after the comment at `at`. Copies it if it is one of those that are kept. */
-static size_t copy_comment(text *to, const text *from, size_t at) {
+/* Says this comment why no test reaches a line? Such as `branches untested: 2^31 rows`. */
+static int is_reason(const char *comment, const char *close) {
+    const char *c = comment + 2;
+    while (c < close && (*c == ' ' || (*c >= 'a' && *c <= 'z')))
+        c++;
+    return c < close && *c == ':' && c - comment > 8 && strncmp(c - 8, "untested", 8) == 0;
+}
+
+/* Returns the position after the comment at `at`. Copies it if it is one of those that are kept:
+ * the first line of a file and reasons, or all but reasons. */
+static size_t copy_comment(text *to, const text *from, size_t at, int only_reasons) {
     const char *begin = from->bytes + at, *close = strstr(begin, "*/");
     const char *reason = strstr(begin, "untested: ");
     if (!close) return from->length;
     const size_t length = (size_t)(close - begin) + 2, width = strcspn(begin, "\n");
-    if (at == 0 && width < length) {
+    if (only_reasons) {
+        if (!is_reason(begin, close)) append(to, begin, length);
+    } else if (at == 0 && width < length) {
         append(to, begin, width);
         append_string(to, " */");
     } else if (at == 0 || (reason && reason < close)) {
@@ -68,7 +79,7 @@ static size_t copy_comment(text *to, const text *from, size_t at) {
     return at + length;
 }
 
-void drop_comments(text *t) {
+void drop_comments(text *t, int only_reasons) {
     text to = {NULL, 0, 0};
     size_t line = 0;                     /* where the last line of `to` begins */
     int has_comment = 0, is_dropped = 0; /* the last line; the line before it */
@@ -76,8 +87,9 @@ void drop_comments(text *t) {
     for (size_t at = 0; at < t->length;) {
         const char *c = t->bytes + at;
         if (strncmp(c, "/*", 2) == 0) {
-            at = copy_comment(&to, t, at);
-            has_comment = 1;
+            const size_t before = to.length;
+            at = copy_comment(&to, t, at, only_reasons);
+            has_comment |= !only_reasons || to.length == before;
         } else if (*c == '"' || *c == '\'') {
             at = copy_literal(&to, t, at);
         } else if (*c != '\n') {

@@ -29,10 +29,10 @@ void append_string(text *t, const char *string);
  */
 int read_file(text *t, const char *path);
 
-/* Drops the comments of an implementation's part, except those named at the top of amalgamate.c,
- * and the lines that had nothing else. Of the empty lines before and after such a line one is
- * left. */
-void drop_comments(text *t);
+/* Drops the comments of an implementation's part, except those named at the top of amalgamate.c, or
+ * only the reasons among them, and the lines that had nothing else. Of the empty lines before and
+ * after such a line one is left. */
+void drop_comments(text *t, int only_reasons);
 
 /* Copies a path to an array of PATH_SIZE bytes. */
 void copy_path(char *to, const char *from, size_t length);

@@ -124,10 +124,21 @@ def entry_html(entry, uses):
     return "\n".join(parts)
 
 
+def constants_of(entry):
+    """The names within a declaration that are not declared by it alone: values of an enumeration,
+    the members of sl_options, and macros that a comment lists."""
+    if entry.name == "sl_options":
+        members = re.findall(r"(\w+);", re.sub(r"/\*.*?\*/", "", entry.code, flags=re.S))
+        return ["options." + name for name in members if name not in ("reserved", "sl_options")]
+    if entry.code.startswith("typedef enum"):
+        return re.findall(r"^ +(SL_\w+)", re.sub(r"/\*.*?\*/", "", entry.code, flags=re.S), re.M)
+    return re.findall(r"^ \*  ((?:SL|SPARSE_LOCAL)_\w+) ", entry.comment, re.M)
+
+
 def api_pages(root, manifest, uses, problems):
-    """The bodies of a page for each public file, the lines that lead to them, and the page of
-    each name."""
-    pages, contents, page_of_name = {}, [], {}
+    """The bodies of a page for each public file, the lines that lead to them, the page of each
+    name, and the place of each constant."""
+    pages, contents, page_of_name, constants = {}, [], {}, {}
     for file in re.findall(r'#include "public/(\w+)\.h"', manifest):
         page = "api-" + file
         with open(os.path.join(root, "src/public/%s.h" % file), encoding="utf-8") as header:
@@ -139,9 +150,12 @@ def api_pages(root, manifest, uses, problems):
             check_entry(root, entry, uses, problems)
         found = [entry.name for entry in entries if entry.name]
         page_of_name.update((name, page) for name in found)
+        for entry in entries:
+            place = "%s.html%s" % (page, "#" + entry.name if entry.name else "")
+            constants.update((name, place) for name in constants_of(entry) if name not in found)
         pages[page] = "<h1>%s.h: %s</h1>\n%s" % (file, title, "\n".join(
             entry_html(entry, uses) for entry in shown_entries(file, entries)))
         contents.append('<li><a href="%s.html">%s.h</a>: %s</li>' % (page, file, title))
     for name in sorted(set(uses) - set(page_of_name)):
         problems.append("tools/examples/uses.c uses %s, which is not public" % name)
-    return pages, contents, page_of_name
+    return pages, contents, page_of_name, constants

@@ -150,7 +150,7 @@ class Manual:
         self.files, self.pictures, self.linked, self.shown = page_files(), set(), set(), {}
         uses = sections(read("tools/examples/uses.c"))
         uses = {name: uses[name] for name in uses if name.startswith("sl_")}
-        self.pages, contents, self.page_of_name = api_pages(
+        self.pages, contents, self.page_of_name, self.constants = api_pages(
             ROOT, read("src/sparse_local.in.h"), uses, PROBLEMS)
         for path, name in self.files.items():
             self.pages[name] = markdown(Page(path, self), read(path))
@@ -176,7 +176,18 @@ class Manual:
 
     def title(self, page):
         match = re.search(r"<h1.*?>(.*?)</h1>", self.pages[page])
-        return re.sub("<[^>]*>", "", match.group(1)) if match else page
+        return html.unescape(re.sub("<[^>]*>", "", match.group(1))) if match else page
+
+    def places(self):
+        """Where each name of the API, each constant, macro and option is, and each page by its
+        title."""
+        first = sorted(self.files.values(), key=lambda page: not page.startswith("do-"))
+        places = {self.title(page): page + ".html" for page in first}
+        places.update((name, "%s.html#%s" % (page, name))
+                      for name, page in sorted(self.page_of_name.items()))
+        places.update(sorted(self.constants.items()))
+        places.update((self.title(page), page + ".html") for page in self.pages)
+        return places
 
     def words(self):
         return sum(len(html.unescape(re.sub("<[^>]*>", " ", body)).split())
@@ -229,17 +240,18 @@ class Manual:
         home = html.escape(os.environ.get("HOME_URL", ""))
         home = ' &middot; <a href="%s">home</a>' % home if home else ""
         nav = '<nav><a href="index.html">sparse_local.h</a>: %s &middot; <input id="name" ' \
-              'list="names" placeholder="a name of the API" autocomplete="off">' \
+              'list="names" placeholder="a name or a topic" autocomplete="off">' \
               '<datalist id="names"></datalist></nav>' % (" &middot; ".join(
                   '<a href="index.html#%s">%s</a>' % (anchor(part), part)
                   for part in PARTS) + home)
         for name, body in self.pages.items():
             write(output, name + ".html",
                   '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
-                  "<title>sparse_local.h: %s</title>\n<style>%s</style></head>\n<body>%s\n%s\n"
+                  "<title>%s</title>\n<style>%s</style></head>\n<body>%s\n%s\n"
                   '<script src="search.js"></script></body></html>\n' % (
-                      self.title(name), STYLE, nav, body))
-        write(output, "search.js", search_script(self.page_of_name))
+                      html.escape(re.sub("^(?!sparse_local.h)", "sparse_local.h: ",
+                                         self.title(name))), STYLE, nav, body))
+        write(output, "search.js", search_script(self.places()))
         for name in names_in("tools/examples", ".c"):
             write(output, "examples/%s.c" % name, whole_program(name))
         for name in names_in("tools/examples", ".obj"):
@@ -249,22 +261,30 @@ class Manual:
             shutil.copy(os.path.join(ROOT, path), output)
 
 
-def search_script(page_of_name):
-    """A script that fills the list of names and goes to the one that is entered."""
+def search_script(places):
+    """A script that fills the list of names and topics and goes to the one that is entered, or with
+    Enter to the first that contains what is entered."""
     return """/* search.js: the field at the top of each page */
-var page_of_name = %s;
+var places = %s;
 var field = document.getElementById("name"), list = document.getElementById("names");
-for (var name in page_of_name) {
+for (var name in places) {
     var option = document.createElement("option");
     option.value = name;
     list.appendChild(option);
 }
 field.addEventListener("input", function () {
-    if (page_of_name.hasOwnProperty(field.value)) {
-        location.href = page_of_name[field.value] + ".html#" + field.value;
+    if (places.hasOwnProperty(field.value)) location.href = places[field.value];
+});
+field.addEventListener("change", function () {
+    var wanted = field.value.toLowerCase();
+    for (var name in places) {
+        if (wanted !== "" && name.toLowerCase().indexOf(wanted) >= 0) {
+            location.href = places[name];
+            return;
+        }
     }
 });
-""" % json.dumps(page_of_name, indent=0, sort_keys=True)
+""" % json.dumps(places, indent=0)
 
 
 def write(output, name, text):

@@ -15,8 +15,8 @@ describe() {
     linked=
     case $1 in
     sparse_local.h) what='the header' ;;
-    sparse_local_core.h) what='the core alone, with the comments of its implementation' ;;
-    sparse_local_flat.h) what='the header without self-inclusion, for pasting' ;;
+    sparse_local_core.h) what='the core alone, to be read: with its comments' ;;
+    sparse_local_flat.h) what='the header without self-inclusion, to be pasted into another file' ;;
     pair/sparse_local.h) what='the header as two files: the declarations' ;;
     pair/sparse_local.c) what='the header as two files: the bodies' ;;
     *.cmake) what=$(sed -n '1s/^# [^:]*: //p' "$1") ;;
@@ -46,6 +46,22 @@ describe() {
 
 echo "# What this release contains"
 [ -z "$HOME_URL" ] || printf '\nHome: %s\n' "$HOME_URL"
+cat <<'TEXT'
+
+For C take sparse_local.h, whose first page says how it is used, and for meshes sparse_local_mesh.h.
+If you would rather compile a .c file, take the folder pair. For C++ and Eigen put the .hpp files
+beside sparse_local.h. The manual needs no network. The repository has all sources, the tests, and
+the packages for Octave and MATLAB.
+
+Python, if NumPy is installed; pip takes the right file of the folder python:
+
+    pip install --no-index --find-links python sparse_local
+
+JavaScript, and the checksums of all files; the table leaves out itself and SHA256SUMS:
+
+    npm install ./sparse-local-VERSION.tgz
+    sha256sum --check SHA256SUMS
+TEXT
 printf '\n| file | what it is | license | bytes | SHA-256 |\n|---|---|---|---|---|\n'
 for file in $(find . -type f ! -name SHA256SUMS ! -name CONTENTS.md | sed 's/^..//' | sort); do
     describe "$file"

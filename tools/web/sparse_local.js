@@ -155,6 +155,7 @@ class Heap {
         if (at >= 0) return at;
         const pointer = this.room(length * Type.BYTES_PER_ELEMENT);
         const from = array instanceof HeapArray ? array.view : array;
+        if (Type === Int32Array && !(from instanceof Int32Array)) checkIntegers(from, length, name);
         this.view(Type, pointer, length).set(from.length === length ? from : from.slice(0, length));
         return pointer;
     }
@@ -230,6 +231,22 @@ function choice(table, value, name) {
 function countOf(array, name) {
     if (typeof array?.length !== "number") throw new TypeError(`${name}: an array is wanted`);
     return array.length;
+}
+
+/* Typed arrays would round or wrap what is not a 32-bit integer. */
+function checkIntegers(array, length, name) {
+    for (let k = 0; k < length; k++) {
+        if (array[k] !== (array[k] | 0)) throw new RangeError(`${name}: ${array[k]} is not a 32-bit integer`);
+    }
+}
+
+/* Refuses arrays that are not as long as the first of several. */
+function checkSame(count, arrays) {
+    for (const [name, array] of Object.entries(arrays)) {
+        if (countOf(array, name) !== count) {
+            throw new RangeError(`${name}: ${count} numbers are wanted, not ${array.length}`);
+        }
+    }
 }
 
 function integer(value, name) {
@@ -480,6 +497,7 @@ export class Factor extends Owned {
     /** Entries (rows[k], columns[k]), and their mirror images, by deltas[k]. */
     changeEntries(rows, columns, deltas) {
         const {heap} = this, count = countOf(rows, "rows");
+        checkSame(count, {columns, deltas});
         heap.call(() => heap.exports.web_change_entries(this.alive,
             heap.put(rows, Int32Array, count, "rows"), heap.put(columns, Int32Array, count, "columns"),
             heap.put(deltas, Float64Array, count, "deltas"), count));
@@ -575,6 +593,7 @@ export class SparseLocal {
     /** Sums equal positions; one triangle, or both. */
     fromTriplets(n, rows, columns, values) {
         const heap = this.#heap, count = countOf(rows, "rows");
+        checkSame(count, {columns, values});
         return heap.call(() => heap.exports.web_triplets(integer(n, "n"), count,
             heap.put(rows, Int32Array, count, "rows"), heap.put(columns, Int32Array, count, "columns"),
             heap.put(values, Float64Array, count, "values")), () => new Matrix(heap, n));

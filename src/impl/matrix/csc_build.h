@@ -114,7 +114,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
         if (i[k] < 0 || i[k] >= n_rows || j[k] < 0 || j[k] >= n_cols) {
             return sli_fail_at(
                 stats, SL_ERR_ARGUMENT, i[k], j[k], (double)k,
-                "the triplet of this number, value, is out of range; rows count from 0");
+                "a triplet is out of range; value is its number, and rows count from 0");
         }
     }
     t.n_rows = n_rows;

@@ -8,8 +8,12 @@
     x = P.solve([1.0])
     d = F.diagonal([4, 2])                # diagonal entries of the inverse
 
-sparse_local.h contains the method and the contracts of all calls.
+The modules linalg, mesh, gradients, autograd, qdldl, sksparse and sksparse05 are imported at their
+first use: sparse_local.mesh.laplacian(points, triangles). sparse_local.h has the method and the
+contracts of all calls.
 """
+import importlib
+
 from ._analysis import Analysis, analyze
 from ._fixed import FixedRows
 from ._errors import (ArgumentError, Error, InaccurateError, InconsistentError, IoError,
@@ -35,3 +39,11 @@ __all__ = ["Factor", "cholesky", "Analysis", "analyze", "Plan", "Region", "Const
            "TooLargeError", "UnsupportedError", "IoError", "OrderingError", "InconsistentError",
            "InaccurateError", "StateError", "MismatchError", "StaleError", "ReadOnlyError",
            "library_path", "version"]
+_MODULES = ("linalg", "mesh", "gradients", "autograd", "qdldl", "sksparse", "sksparse05")
+
+
+def __getattr__(name):
+    """Modules that need SciPy or torch, and are imported when they are first used."""
+    if name not in _MODULES:
+        raise AttributeError("module %r has no attribute %r" % (__name__, name))
+    return importlib.import_module("." + name, __name__)

@@ -5,6 +5,8 @@ from typing import Any, Literal, NamedTuple, Protocol, Sequence, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import gradients as gradients, linalg as linalg, mesh as mesh
+
 __version__: str
 
 class _Arrays(Protocol):

@@ -22,7 +22,7 @@ class Error(Exception):
         if column is not None:
             text += ", column %d" % column
         super().__init__(text if advice is None else "%s; %s" % (text, advice))
-        self.cause = text  # without advice on options, for doors that do not take them
+        self.cause = text  # without advice on options, for adapters that do not take them
 
 
 class PatternError(Error, ValueError):

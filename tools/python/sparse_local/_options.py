@@ -104,6 +104,9 @@ def split(keywords):
         return keywords, keywords
     for name in keywords:
         if name not in ANALYSIS and name not in NUMBERS:
-            raise TypeError("unknown option %r" % name)
+            import difflib
+            near = difflib.get_close_matches(name, ANALYSIS + NUMBERS, 1)
+            raise TypeError("unknown option %r" % name +
+                            ("; did you mean %r?" % near[0] if near else ""))
     return ({k: v for k, v in keywords.items() if k in ANALYSIS},
             {k: v for k, v in keywords.items() if k in NUMBERS})

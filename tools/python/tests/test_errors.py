@@ -54,6 +54,13 @@ def test_small_pivots_name_their_size():
         sl.Factor(B, null_tolerance=1e-6)
 
 
+def test_an_unknown_option_names_the_nearest():
+    with pytest.raises(TypeError, match="unknown option 'order'; did you mean 'ordering'[?]"):
+        sl.Factor(grid(6), order="nd")
+    with pytest.raises(TypeError, match="unknown option 'xyz'$"):
+        sl.Factor(grid(6), xyz=1)
+
+
 def test_inconsistent_systems_name_their_size():
     F = sl.Factor(grid(6, 0.0), null_pivots="skip")
     message = r"1 of sum \|b\|, consistency_tolerance is 1e-06"

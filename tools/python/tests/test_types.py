@@ -28,6 +28,7 @@ d = sl.load_set("a.slf").factor.diagonal()[0]
 B = sl.from_triplets(1, [0], [0], [1.0])
 g, v = gradients.solve_gradient(F, A, x, x)
 lu = linalg.splu(A)
+L, mass = sl.mesh.laplacian(np.zeros((3, 2)), [[0, 1, 2]])
 """
 WRONG = ["sl.Factor(A, null_pivot='skip')", "sl.Factor(A, ordering='best')",
          "sl.Factor(np.eye(3))", "F.solve()", "F.plan([1.5], [2])", "F.solves(x)",

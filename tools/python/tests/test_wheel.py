@@ -47,12 +47,13 @@ assert np.allclose(F.diagonal(), np.linalg.inv(dense).diagonal())
 assert np.allclose(F.constraints([3]).solve(None, [1.0])[3], 1)
 L, D, perm = F.factors()
 assert L.shape == D.shape == (n, n)
-from sparse_local import gradients
-by_b, by_a = gradients.solve_gradient(F, A, x, np.ones(n))
+by_b, by_a = sl.gradients.solve_gradient(F, A, x, np.ones(n))
 assert by_a.shape == A.data.shape
 assert np.allclose(sl.Sum([A]).factor([2.0]).solve(b) * 2, x)
 F.refactor(A)
 assert sl.Factor.from_bytes(F.to_bytes()).n == n
+assert sl.mesh.boundary(np.array([[0, 1, 2]])).shape == (3, 2)
+assert not hasattr(sl, "meshes")
 assert not any(name.startswith("scipy") for name in sys.modules)
 print("done")
 """
