@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1d825374d4cfacf1
+ * FNV-1a of the lines after this comment, without the license: 1b0e95a7ac091f45
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,23 +38,23 @@
  *   5821 impl/ ordering: fill-reducing orderings of a graph
  *  10596 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12829 impl/ factor: the numbers of L and D
- *  15417 impl/ solve: full and local solves
- *  16929 impl/ singular: null spaces of semidefinite matrices
- *  18180 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20219 impl/ pivots: the order of the pivots by the values of a matrix
- *  20624 impl/ float: L in single precision
- *  20807 impl/ inverse: entries of the inverse, regions
- *  23709 impl/ change: a factor that follows changes of its matrix
- *  25979 impl/ constraints: rows held at values, on a factor that stays
- *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30045 impl/ fixed: rows fixed at given values
- *  30601 impl/ io: files that are replaced only when they are complete
- *  30820 impl/ files: Matrix Market files, 64-bit indices
- *  31376 impl/ save: factors in files
- *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34027 impl/ complex: complex Hermitian systems over real factors
- *  34500 impl/ packs: the tables through which the core calls packs
- *  34922 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15416 impl/ solve: full and local solves
+ *  16928 impl/ singular: null spaces of semidefinite matrices
+ *  18179 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20218 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20623 impl/ float: L in single precision
+ *  20806 impl/ inverse: entries of the inverse, regions
+ *  23708 impl/ change: a factor that follows changes of its matrix
+ *  25978 impl/ constraints: rows held at values, on a factor that stays
+ *  27329 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30044 impl/ fixed: rows fixed at given values
+ *  30600 impl/ io: files that are replaced only when they are complete
+ *  30819 impl/ files: Matrix Market files, 64-bit indices
+ *  31375 impl/ save: factors in files
+ *  33346 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34026 impl/ complex: complex Hermitian systems over real factors
+ *  34499 impl/ packs: the tables through which the core calls packs
+ *  34921 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14895,14 +14895,12 @@ SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source 
 }
 
 SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
-  const int can_skip = sli_singular_of(1) != NULL;
-  const char *what = can_skip ? sli_advice_of_matrix(F, from, k) : NULL;
+  const char *what = sli_singular_of(1) == NULL /* branches untested: null spaces are there */
+               ? NULL
+               : sli_advice_of_matrix(F, from, k);
   return what != NULL ? what
        : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
          ? "the pivot is within options.null_tolerance, which is above its default"
-       : !can_skip /* untested: null spaces are there */
-         ? "if A is regular, sl_symbolic_create_pivoted factors it; SL_NO_SINGULAR leaves "
-         "out options.pivots" /* untested: the same */
        : F->S->is_pivoted
          ? "A is singular to working precision; if it is semidefinite, options.pivots = "
          "SL_PIVOTS_SKIP_NULL without sl_symbolic_create_pivoted"
@@ -14922,7 +14920,8 @@ SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, con
   return F->limits.is_definite && f->bound >= 0.0
          ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
        : f->bound < 0.0 ? "there was no memory to judge the pivot"
-       : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
+       : !sli_skips_nulls(F) || sli_singular_of(1) == NULL /* branches untested: the same */
+         ? sli_advice_null(F, from, f->pivot)
        : f->bound > 0.0 && f->value != 0.0
          ? "the pivot has the wrong sign, beyond options.null_tolerance: "
          "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"

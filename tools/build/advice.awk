@@ -11,8 +11,6 @@ BEGIN {
     elsewhere["options.isa has no kernels for L in float"]
     elsewhere["a factor with null pivots: compiled with SL_NO_SINGULAR"]
     elsewhere["the call: compiled with SL_NO_SINGULAR"]
-    elsewhere["if A is regular, sl_symbolic_create_pivoted factors it; SL_NO_SINGULAR leaves " \
-              "out options.pivots"]
 }
 
 # Takes the strings of a file, which adjacent literals make.

@@ -17,7 +17,6 @@ static const struct {
     {"of sl_symbolic_create_pivoted", "with 'pivoted', true"},
     {"sl_symbolic_create_pivoted", "'pivoted', true"},
     {"see options.pivots and", "see 'null_pivots', 'skip' and"},
-    {"SL_NO_SINGULAR leaves out options.pivots", "'null_pivots' is not compiled in"},
     {"compiled with SL_NO_SINGULAR", "not compiled in"},
     {"columns are given, options.null_vector_count", "'null_vector' has columns"},
     {"options.null_vector_count is below 0 or above 32", "'null_vector' has more than 32 columns"},

@@ -37,14 +37,12 @@ SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source 
 
 /* What helps where pivot k was refused because it is null. */
 SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
-    const int can_skip = sli_singular_of(1) != NULL;
-    const char *what = can_skip ? sli_advice_of_matrix(F, from, k) : NULL;
+    const char *what = sli_singular_of(1) == NULL /* branches untested: null spaces are there */
+                           ? NULL
+                           : sli_advice_of_matrix(F, from, k);
     return what != NULL ? what
            : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
                ? "the pivot is within options.null_tolerance, which is above its default"
-           : !can_skip /* untested: null spaces are there */
-               ? "if A is regular, sl_symbolic_create_pivoted factors it; SL_NO_SINGULAR leaves "
-                 "out options.pivots" /* untested: the same */
            : F->S->is_pivoted
                ? "A is singular to working precision; if it is semidefinite, options.pivots = "
                  "SL_PIVOTS_SKIP_NULL without sl_symbolic_create_pivoted"
@@ -64,8 +62,9 @@ SLI_COLD static const char *sli_advice(sl_factor *F, const sli_source *from, con
     }
     return F->limits.is_definite && f->bound >= 0.0
                ? "SL_PIVOTS_POSITIVE: the pivot is not positive, and A not positive definite"
-           : f->bound < 0.0      ? "there was no memory to judge the pivot"
-           : !sli_skips_nulls(F) ? sli_advice_null(F, from, f->pivot)
+           : f->bound < 0.0 ? "there was no memory to judge the pivot"
+           : !sli_skips_nulls(F) || sli_singular_of(1) == NULL /* branches untested: the same */
+               ? sli_advice_null(F, from, f->pivot)
            : f->bound > 0.0 && f->value != 0.0 /* 0: one of two complex null vectors is missing */
                ? "the pivot has the wrong sign, beyond options.null_tolerance: "
                  "SL_PIVOTS_SKIP_NULL takes semidefinite matrices"

@@ -22,7 +22,6 @@ NAMES = {
     "threads.count is above 1: compile with SL_PTHREADS or OpenMP, or set threads.run":
         "threads is above 1, and none are compiled in",
     ": compiled with SL_NO_SINGULAR": ": not compiled in",
-    "; SL_NO_SINGULAR leaves out options.pivots": "; null_pivots is not compiled in",
     # calls and what they return
     "sl_constraints_refactor": "Constraints.refactor",
     "sl_region_refactor": "Region.refactor",
