@@ -12,21 +12,21 @@
 # limited, too: a frame, and a chain of calls.
 
 cd "$(dirname "$0")/../.." || exit 1
-header_limit=1372800      # sparse_local.h
-core_header_limit=899300  # the core, with the comments of the implementation
-core_text_limit=330900
+header_limit=1372750      # sparse_local.h
+core_header_limit=896500  # the core, with the comments of the implementation
+core_text_limit=330800
 singular_text_limit=304400 # the core without null spaces
-all_text_limit=762500
+all_text_limit=762200
 frame_limit=28000
 chain_limit=36000
 # What there is to know (count.sh). Limits are lowered, never raised: what needs room removes first.
 calls_limit=86           # public calls
 options_limit=24         # fields of sl_options
 constants_limit=201      # tuning constants
-functions_limit=1813     # functions of src
+functions_limit=1812     # functions of src
 long_functions_limit=0   # functions above 60 lines
 wide_functions_limit=36  # functions of more than 6 parameters
-folder_limit=26          # files in a folder of src/impl
+folder_limit=23          # files in a folder of src/impl
 
 export CCACHE_DISABLE=1
 dir=build/size
