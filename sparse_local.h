@@ -1,5 +1,5 @@
-/* sparse_local.h 1.0.0-dev, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1b0e95a7ac091f45
+/* sparse_local.h 1.0.0, generated: edit src/, run make header
+ * FNV-1a of the lines after this comment, without the license: efb28d0eab04f02f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -301,7 +301,7 @@
 #define SL_VERSION_MAJOR 1
 #define SL_VERSION_MINOR 0
 #define SL_VERSION_PATCH 0
-#define SL_VERSION_SUFFIX "-dev" /* empty in a release */
+#define SL_VERSION_SUFFIX "" /* empty in a release */
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
 

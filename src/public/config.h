@@ -56,7 +56,7 @@
 #define SL_VERSION_MAJOR 1
 #define SL_VERSION_MINOR 0
 #define SL_VERSION_PATCH 0
-#define SL_VERSION_SUFFIX "-dev" /* empty in a release */
+#define SL_VERSION_SUFFIX "" /* empty in a release */
 /* the version as one number, to compare: 10203 is 1.2.3 */
 #define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
 
