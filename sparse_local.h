@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: efb28d0eab04f02f
+ * FNV-1a of the lines after this comment, without the license: bab3240271b7165c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -51,10 +51,10 @@
  *  30600 impl/ io: files that are replaced only when they are complete
  *  30819 impl/ files: Matrix Market files, 64-bit indices
  *  31375 impl/ save: factors in files
- *  33346 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34026 impl/ complex: complex Hermitian systems over real factors
- *  34499 impl/ packs: the tables through which the core calls packs
- *  34921 impl/ templates: the header includes them from itself, once for each instruction set
+ *  33343 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34023 impl/ complex: complex Hermitian systems over real factors
+ *  34495 impl/ packs: the tables through which the core calls packs
+ *  34917 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -30566,7 +30566,7 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
     return status;
   }
-  if (D->is_stale || !D->F->is_valid) { /* second branch untested: then it is stale, too */
+  if (D->is_stale || !D->F->is_valid) { /* branches untested: then it is stale, too */
     return sli_refuse(SL_ERR_STALE, "the last sl_fixed_refactor has failed");
   }
   own = sli_work_own(&D->allocator);
@@ -31387,7 +31387,7 @@ static sl_status sli_map_allows(int64_t size) {
   if (size <= 0) {
     return sli_refuse(SL_ERR_IO, sli_no_file);
   }
-  return (uint64_t)size <= SIZE_MAX / 2 /* branch untested: on 32 bits only */
+  return (uint64_t)size <= SIZE_MAX / 2 /* branches untested: on 32 bits only */
          ? SL_OK
          : sli_refuse(SL_ERR_TOO_LARGE, "the file is larger than the address space");
 }
@@ -31944,9 +31944,6 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
   F->rule.replaces = skips || g->regularization != 0.0;
-  if (F->type->suits != NULL && !F->type->suits(F)) {
-    return 0;
-  }
   F->identity.a = g->identity[0];
   F->identity.b = g->identity[1];
   F->generation = F->certificate.generation = 1;
@@ -34189,13 +34186,12 @@ static int sli_matrix_is_complex(const sl_csc *A) {
 }
 
 static sl_status sli_complex_suits(const sl_factor *F) {
-  const int has_pairs = !F->S->is_pivoted && sli_rows_are_paired(F->S) &&
-              (!F->rule.replaces || F->null.vectors % 2 == 0);
-  if (has_pairs && F->rule.regularization == 0.0) {
-    return SL_OK;
-  }
-  return sli_refuse(SL_ERR_UNSUPPORTED,
-      "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized");
+  return !F->S->is_pivoted && sli_rows_are_paired(F->S) &&
+           (!F->rule.replaces || F->null.vectors % 2 == 0)
+         ? SL_OK
+         : sli_refuse(
+             SL_ERR_UNSUPPORTED,
+             "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized");
 }
 
 static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {

@@ -138,7 +138,7 @@ static void wrong_arguments(void **state) {
     sl_matrix *M = y.M;
     sl_plan *P = (sl_plan *)(void *)&M;
     sl_stats stats;
-    sl_int set[2] = {5, N};
+    sl_int set[2] = {5, N}, below[1] = {-1};
     double value, sign;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_hermitian(NULL, &c->H, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_hermitian(&M, NULL, NULL, NULL));
@@ -168,6 +168,8 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, set, 1, set, 2, NULL, &stats));
     assert_int_equal(stats.error.row, N);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, set, -1, set, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, below, 1, set, 1, NULL, &stats));
+    assert_int_equal(stats.error.row, -1);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, NULL, set, 1, set, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(NULL, y.S, set, 1, set, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_logdet(NULL, &value, &sign));

@@ -278,8 +278,51 @@ static void invalid_arguments_of_submatrix_are_refused(void **state) {
     gen_matrix_free(&M);
 }
 
+/* A.p that descends, or leads beyond the entries, in a column that is read. */
+static void malformed_columns_of_submatrix_are_refused(void **state) {
+    (void)state;
+    enum { COUNT = 4 };
+    static const sl_int all[3] = {0, 1, 2}, i[5] = {0, 1, 1, 2, 2}, low[5] = {0, -1, 1, 2, 2};
+    static const struct {
+        sl_int p[4];
+        const sl_int *i, *rows;
+        sl_int count, column;
+    } bad[COUNT] = {
+        {{0, -2, 4, 5}, i, all + 1, 1, 1}, /* it begins below 0 */
+        {{0, 2, 7, 5}, i, all + 1, 1, 1},  /* it ends beyond the entries */
+        {{0, 4, 1, 5}, i, all, 3, 1},      /* it descends */
+        {{0, 2, 4, 5}, low, all, 3, 0},    /* a row below 0 */
+    };
+    sl_matrix *P = NULL;
+    sl_stats stats;
+    for (int k = 0; k < COUNT; k++) {
+        const sl_csc A = {3, 3, bad[k].p, bad[k].i, NULL};
+        SL_EXPECT(SL_ERR_MALFORMED,
+                  sl_matrix_submatrix(&P, &A, bad[k].rows, bad[k].count, NULL, &stats));
+        assert_int_equal(stats.error.column, bad[k].column);
+        assert_null(P);
+    }
+    /* two columns that share entries are more than there are */
+    const sl_int shared[4] = {0, 4, 1, 5}, ends[2] = {0, 2};
+    const sl_csc S = {3, 3, shared, i, NULL};
+    SL_EXPECT(SL_ERR_MALFORMED, sl_matrix_submatrix(&P, &S, ends, 2, NULL, &stats));
+    assert_null(P);
+    /* without entries there is no i; with entries there is */
+    const sl_int none[4] = {0, 0, 0, 0}, some[4] = {0, 1, 1, 1};
+    const sl_csc E = {3, 3, none, NULL, NULL}, N = {3, 3, some, NULL, NULL},
+                 Z = {0, 0, none, NULL, NULL};
+    SL_CHECK(sl_matrix_submatrix(&P, &E, all, 2, NULL, NULL));
+    assert_int_equal(sl_matrix_view(P).n_cols, 2);
+    sl_matrix_free(P);
+    SL_CHECK(sl_matrix_submatrix(&P, &Z, NULL, 0, NULL, NULL));
+    sl_matrix_free(P);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_submatrix(&P, &N, all, 2, NULL, NULL));
+    assert_null(P);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(malformed_columns_of_submatrix_are_refused),
         cmocka_unit_test(check_reports_each_defect),
         cmocka_unit_test(the_triangle_of_every_style_is_detected),
         cmocka_unit_test(an_entry_without_mirror_image_is_reported),

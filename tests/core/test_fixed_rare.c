@@ -116,6 +116,37 @@ static void a_solution_may_overflow(void **state) {
     sl_fixed_free(D);
 }
 
+/* Fixed values that are not finite, alone and with B. */
+static void values_that_are_not_finite_are_refused(void **state) {
+    (void)state;
+    static const sl_int fixed[2] = {0, 3};
+    static const double B[6] = {0.0};
+    double X[6], g[2] = {1.0, 2.0};
+    sl_fixed *D = NULL;
+    SL_CHECK(sl_fixed_create(&D, &two_paths, fixed, 2, NULL, NULL));
+    for (int k = 0; k < 2; k++) {
+        g[1] = k == 0 ? (double)INFINITY : (double)NAN;
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_solve(D, X, 6, NULL, 0, g, 2, 1, NULL));
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_fixed_solve(D, X, 6, B, 6, g, 2, 1, NULL));
+    }
+    sl_fixed_free(D);
+}
+
+/* A matrix without entries, of which all rows are fixed: it has no values to give. */
+static void no_entries_need_no_values(void **state) {
+    (void)state;
+    static const sl_int fixed[2] = {0, 1}, p[3] = {0, 0, 0}, i[1] = {0};
+    static const double g[2] = {5.0, 7.0};
+    const sl_csc A = {2, 2, p, i, NULL};
+    double X[2] = {0.0, 0.0};
+    sl_fixed *D = NULL;
+    SL_CHECK(sl_fixed_create(&D, &A, fixed, 2, NULL, NULL));
+    SL_CHECK(sl_fixed_refactor(D, &A, NULL));
+    SL_CHECK(sl_fixed_solve(D, X, 2, NULL, 0, g, 2, 1, NULL));
+    assert_memory_equal(X, g, sizeof X);
+    sl_fixed_free(D);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_negative_pivot_is_named_by_its_row),
@@ -123,6 +154,8 @@ int main(void) {
         cmocka_unit_test(what_is_no_pattern_is_refused),
         cmocka_unit_test(growth_is_refused_until_other_values_come),
         cmocka_unit_test(a_solution_may_overflow),
+        cmocka_unit_test(values_that_are_not_finite_are_refused),
+        cmocka_unit_test(no_entries_need_no_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

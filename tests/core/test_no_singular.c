@@ -52,6 +52,9 @@ static void options_are_refused_by_name(void **state) {
     opt.null_vector = ones;
     is_refused(&opt, "options.null_vector");
     opt.null_vector = NULL;
+    opt.null_vector_count = 1;
+    is_refused(&opt, "options.null_vector");
+    opt.null_vector_count = 0;
     opt.consistency_tolerance = -1;
     is_refused(&opt, "options.consistency_tolerance");
 }
