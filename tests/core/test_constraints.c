@@ -212,6 +212,26 @@ static void a_changed_factor_is_refused_until_the_refactorization(void **state) 
     pinned_free(&p);
 }
 
+/* Equalities of one row each, between rows that are held. */
+static void weighted_rows_survive_a_refactorization(void **state) {
+    (void)state;
+    static const struct {
+        sl_int row;
+        double weight;
+    } one[3] = {{20, 4.0}, {21, -0.375}, {40, 1e-30}};
+    pinned_t p = pinned_make(GEN_GRID2, 60, 1, NULL);
+    pin(&p, 3);
+    for (int k = 0; k < 3; k++) {
+        SL_CHECK(sl_constraints_add(p.P, &one[k].row, &one[k].weight, 1, NULL));
+        p.C[(size_t)p.count++ * (size_t)p.n + (size_t)one[k].row] = one[k].weight;
+        pin(&p, 30 + k);
+    }
+    assert_pinned(&p, 3);
+    SL_CHECK(sl_constraints_refactor(p.P, NULL));
+    assert_pinned(&p, 3);
+    pinned_free(&p);
+}
+
 static void invalid_arguments_are_refused(void **state) {
     (void)state;
     pinned_t p = pinned_make(GEN_GRID2, 60, 1, NULL);
@@ -314,6 +334,7 @@ int main(void) {
         cmocka_unit_test(a_pin_makes_a_laplacian_regular),
         cmocka_unit_test(pins_of_several_components),
         cmocka_unit_test(a_changed_factor_is_refused_until_the_refactorization),
+        cmocka_unit_test(weighted_rows_survive_a_refactorization),
         cmocka_unit_test(invalid_arguments_are_refused),
         cmocka_unit_test(failing_allocations_leave_the_pins),
     };
