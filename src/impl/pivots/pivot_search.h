@@ -81,8 +81,8 @@ static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *
     rest_t = sli_column_max(other, k, f->rows, c, t, &row) / e;
     a = column[c] / e;
     b = other[t] / e;
-    /* |D^-1| = [|b| 1; 1 |a|] / (e |a b - 1|). If a b overflows, both are pivots
-     * alone, up to rounding */
+    /* |D^-1| = [|b| 1; 1 |a|] / (e |a b - 1|). If a b overflows, both are pivots alone, up to
+     * rounding. */
     room = fabs(a * b - 1.0) / SLI_PIVOT_THRESHOLD;
     *partner = t;
     return 2 * (room <= DBL_MAX && fabs(b) * rest + rest_t <= room &&

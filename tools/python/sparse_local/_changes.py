@@ -10,6 +10,7 @@ from ._matrix import Matrix
 from ._options import Chosen
 
 _METHODS = ("none", "update", "reach", "refactor")
+_REASONS = ("cheapest", "unsuited", "drift", "refused", "columns")
 
 
 class Changes:
@@ -19,7 +20,8 @@ class Changes:
     def change_entries(self, A=None, rows=None, columns=None, deltas=None, *, was=None):
         """Follows changes of some entries or columns of A. changed["method"] is the way that was
         taken: 'none', 'update' (rank-one changes), 'reach' (what the changes reach in L is computed
-        anew) or 'refactor'.
+        anew) or 'refactor'. changed["reason"] is why: 'cheapest', 'unsuited' (null or 2x2 pivots,
+        or no numbers), 'drift' (errors of earlier changes), 'refused' (a pivot) or 'columns'.
 
         A        the changed matrix, in the analyzed pattern. By entries the cheapest way is taken;
                  without A rank-one changes, with the errors of rank_update.
@@ -65,6 +67,7 @@ class Changes:
     def _note(self, stats):
         self.changed = as_dict(stats.change)
         self.changed["method"] = _METHODS[stats.change.method]
+        self.changed["reason"] = _REASONS[stats.change.reason]
         return self
 
     def rank_update(self, V, sigma=None):
@@ -153,6 +156,7 @@ class Changes:
             width)
         edited = type(self)._of(analysis, factor.value, numbers["threads"], definite)
         edited.reused = as_dict(stats.reuse)
+        edited.reused["reason"] = _REASONS[stats.reuse.reason]
         edited._consistency = numbers.get("consistency_tolerance") or 1e-6
         edited._has_mass = numbers.get("mass") is not None
         edited._check_definite()

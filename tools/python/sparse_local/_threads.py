@@ -158,7 +158,7 @@ def set_threads(options, count):
     """Sets options.threads; None or 1: the calling thread only."""
     if count is None:
         return
-    if isinstance(count, bool) or int(count) != count or count < 1:
+    if isinstance(count, (bool, str)) or int(count) != count or count < 1:
         raise ArgumentError("threads is a number from 1 on, not %r" % (count,))
     options.thread_count = min(int(count), _LIMIT)
     options.thread_run = _ADDRESS if count > 1 else None

@@ -207,6 +207,7 @@ def test_changes_follow_entries(A, turn):
     F = sl.Factor(form(A))
     assert F.change_entries(form(B), was=form(A)) is F
     assert F.changed["method"] in ("update", "reach", "refactor")
+    assert F.changed["reason"] == "cheapest"
     wanted = np.linalg.solve(B.toarray(), b)
     assert np.allclose(F.solve(b), wanted)
     assert F.change_entries(form(B), was=form(B)).changed["method"] == "none"
@@ -291,6 +292,7 @@ def test_edits_follow_a_mesh():
     G, b = F.edit(A, B, new_of), right_hand_sides(400)
     assert np.allclose(G.solve(b), np.linalg.solve(B.toarray(), b))
     assert "changed" in G.analysis.edited and "kept" in G.reused
+    assert G.reused["reason"] == "cheapest"
     again = sl.Factor.from_bytes(G.to_bytes())
     assert np.array_equal(again.solve(b), G.solve(b))
     for wrong in (new_of[:-1], np.where(new_of == 7, 8, new_of),

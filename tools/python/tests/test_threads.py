@@ -26,7 +26,7 @@ def test_threads_give_the_same_bits(threads):
     assert np.array_equal(one.refactor(2 * A).solve(B), many.refactor(2 * A).solve(B))
     again = sl.Factor.from_bytes(many.to_bytes(), threads=threads)
     assert np.array_equal(again.refactor(2 * A).solve(B), many.solve(B))
-    for wrong in (0, -1, 1.5, True):
+    for wrong in (0, -1, 1.5, True, "2"):
         with pytest.raises(sl.ArgumentError):
             sl.Factor(grid(3), threads=wrong)
 
