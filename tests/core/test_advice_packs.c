@@ -434,17 +434,17 @@ static sl_status null_in_complex(int heeds) {
     static const double h[] = {1, 0, 0, -1, 1, 0}, z[] = {1, 0, 0, 1, 0, 1, -1, 0};
     static const double right[] = {1, 0, 0, -1};
     const sl_hermitian H = {2, p, i, h, NULL};
-    sl_options opt = skipping();
+    sl_options opt = skipping(), pairs = options_none();
     sl_matrix *M = NULL;
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     opt.storage = SL_STORAGE_COMPLEX;
-    opt.block_size = 2;
+    pairs.block_size = 2;
     opt.null_vector = z;
     opt.null_vector_count = heeds ? 2 : 1;
     SL_CHECK(sl_matrix_from_hermitian(&M, &H, NULL, NULL));
     const sl_csc A = sl_matrix_view(M);
-    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    SL_CHECK(sl_symbolic_create(&S, &A, &pairs, NULL));
     const sl_status status = sl_factor_create(&F, S, &A, &opt, NULL);
     if (status == SL_OK) {
         SL_CHECK(sl_factor_solve(F, x, 4, right, 4, 1, NULL));

@@ -69,7 +69,7 @@ static void kept_pivots_may_lose_small_rows(void **state) {
         sl_stats stats;
         SL_CHECK(sl_symbolic_create_pivoted(&S, is_new ? &next : &first, &opt, &stats));
         assert_int_equal(stats.symbolic.pairs, 1);
-        SL_CHECK(sl_factor_create(&F, S, is_new ? &next : &first, &opt, &stats));
+        SL_CHECK(sl_factor_create(&F, S, is_new ? &next : &first, NULL, &stats));
         SL_CHECK(sl_factor_refactor(F, &next, &stats));
         assert_true(stats.factor.growth < 10.0);
         SL_CHECK(sl_factor_solve(F, x, 3, b, 3, 1, NULL));

@@ -112,7 +112,7 @@ static inline void mesh_factor_free(mesh_factor_t *w) {
 /* The faces between the `count` vertices nearest to start by edges. */
 static inline submesh grown_patch(mesh_factor_t *w, sl_int start, sl_int count) {
     const sl_int n = w->m.n_vertices;
-    sl_int *near = test_ints((size_t)n), *vertices = test_ints((size_t)n), n_vertices = 0;
+    sl_int *near = test_ints((size_t)n), *vertices = test_ints((size_t)n + 3), n_vertices = 0;
     sl_int *faces = test_ints((size_t)w->m.n_faces), n_faces = 0;
     unsigned char *seen = calloc((size_t)n + 1, 1);
     adjacency graph;
