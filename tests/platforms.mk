@@ -211,7 +211,7 @@ cov: deps deps-cov deps-png sparse_local.h ## line and branch coverage of the he
 # Each condition has to decide its decision alone. Conditions of one variable, as in a == 1 || a == 2, never do, so that
 # there is no limit. clang counts them from version 18 on.
 MCDC = 19
-MCDC_TESTS = $(sort $(filter-out $(OWN_BODIES),$(wildcard $(patsubst %,tests/core/test_%*.c,arguments bounds errors options csc save triangle) tests/core/test_*_use.c tests/core/test_*_wrong.c)))
+MCDC_TESTS = $(sort $(filter-out $(OWN_BODIES),$(wildcard $(patsubst %,tests/core/test_%*.c,arguments bounds errors options csc matrix save forged triangle) tests/core/test_*_use.c tests/core/test_*_wrong.c)))
 
 mcdc: deps sparse_local.h ## conditions of the checks of arguments and files that decide alone (MC/DC); needs clang $(MCDC)
 	@+if ! tools/build/deps.sh clang-$(MCDC)=clang-$(MCDC) llvm-cov-$(MCDC)=llvm-$(MCDC) \

@@ -181,7 +181,7 @@ extern int chroot(const char *path);
 /* Files without a name get one by way of /proc. */
 static void a_file_is_saved_without_proc(void **state) {
     (void)state;
-    int code;
+    int code = 0;
     const pid_t child = fork();
     if (child == 0) {
         _exit(chroot(files_folder) != 0 ? 77 : write_grid(5, "/a.slf") != SL_OK);
