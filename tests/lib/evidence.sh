@@ -107,7 +107,10 @@ remark() {
         awk '/^(lines|branches):/ { sub(":", "", $1); text = text ", " $1 " " $2 }
             END { print substr(text, 3) }' build/cov/summary.txt 2>/dev/null
         ;;
-    mcdc) grep conditions "$2" | tail -n 1 ;;
+    mcdc)
+        awk '/ conditions decide alone/ { met += $2; all += $4 }
+            END { if (all) print met " of " all " conditions decide alone" }' "$2"
+        ;;
     judge) echo '1,000,000 systems' ;;
     esac | tr '\t|' '  '
 }
