@@ -46,7 +46,7 @@ RELEASE = build/release/sparse_local-$(FULL_VERSION)
 release: export DEPS_INSTALL = no
 release: check-header docs npm wheels ## build/release: headers, tarball, manual, wheels, npm package, notes, and a list with licences and checksums
 	@test -z "$$(git status --porcelain)" || { echo 'release: there are changes that are not committed'; exit 1; }
-	@case $(VERSION) in 0.*) ;; *) test -f tests/abi/sparse_local-$(VERSION).h || { echo 'release: make abi-record, and commit it'; exit 1; } ;; esac
+	@case $(VERSION) in 0.*) ;; *) test -f tests/abi/sparse_local-$(VERSION).h && test -f tests/abi/names-$(VERSION).txt || { echo 'release: make abi-record, and commit it'; exit 1; } ;; esac
 	@rm -rf build/release && mkdir -p build/release
 	@cp sparse_local.h tools/adapters/sparse_local* build/release
 	@$(MAKE) --no-print-directory header-flat && cp build/sparse_local_flat.h build/release

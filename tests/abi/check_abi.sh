@@ -1,15 +1,18 @@
 #!/bin/sh
-# check_abi.sh: compares the declarations of the header with those of the last release, and links
-# programs compiled with one of them to the library of the other (make abi)
+# check_abi.sh: compares the declarations of the header with those of the last release, the names of
+# adapters, Python, JavaScript and Octave with those of each release, and links programs compiled
+# with one header to the library of the other (make abi)
 #
 #     tests/abi/check_abi.sh [record]
 #
 # tests/abi/sparse_local-VERSION.h is a release as a compiler sees it: names, types, values of enums
-# and structs, without comments and bodies. `record` writes the one of this version, at a release.
-# Before 1.0, between releases (-dev) and with no record differences are printed; in a release, or
-# with SL_ABI_STRICT=1, they fail. New calls, new values at the end of an enum, and options and
-# statistics in the place of reserved ones are no differences. client.c uses only what the oldest
-# record has. CC and VERSION come from the Makefile; ABI_OLD is another record to compare with.
+# and structs, without comments and bodies; names-VERSION.txt has the names of the rest, as names.py
+# prints them. `record` writes those of this version, at a release. Before 1.0, between releases
+# (-dev) and with no record differences are printed; in a release, or with SL_ABI_STRICT=1, they
+# fail. New calls, new values at the end of an enum, options and statistics in the place of reserved
+# ones, and parameters that may be left out, after the others or by name, are no differences.
+# client.c uses only what the oldest record has. CC and VERSION come from the Makefile; ABI_OLD is
+# another header to compare with.
 # The last line is `N passed, N failed, N skipped`.
 
 cd "$(dirname "$0")/../.." || exit 1
@@ -79,6 +82,11 @@ links() {
         LD_LIBRARY_PATH=$(dirname "$2") $dir/client
 }
 
+# names ROOT [RECORD...]: the names of the tree ROOT, or what they break of the records.
+names() {
+    python3 -B tests/abi/names.py "$@"
+}
+
 declarations sparse_local.h >$new || exit 1
 if [ "$1" = record ]; then
     {
@@ -86,6 +94,12 @@ if [ "$1" = record ]; then
         cat $new
     } >tests/abi/sparse_local-$VERSION.h
     echo "tests/abi/sparse_local-$VERSION.h: $(grep -c 'extern ' $new) functions"
+    names . >$dir/names.txt || exit 1
+    {
+        echo "# names-$VERSION.txt: what version $VERSION names beside the header, from names.py"
+        cat $dir/names.txt
+    } >tests/abi/names-$VERSION.txt
+    echo "tests/abi/names-$VERSION.txt: $(wc -l <$dir/names.txt) names"
     exit
 fi
 
@@ -100,26 +114,44 @@ old=${old:-$new}
 skipped=0
 changed=
 
-# ---- what is declared ----
-
 details() {
     cat $dir/report
 }
 
-if command -v abidiff >/dev/null 2>&1; then
-    if same "$old" $new >$dir/report; then
-        echo "ok       all of $old is declared as it was"
+# compared RECORD STATUS: RECORD is kept if STATUS is 0. If not, that fails in a release.
+compared() {
+    if [ "$2" -eq 0 ]; then
+        echo "ok       all of $1 is declared as it was"
         passed=$((passed + 1))
-    else
-        changed=1
-        case $VERSION,$SL_ABI_STRICT in
-        0.*, | *-dev,)
-            echo "changed since $old, before a release:"
-            details | sed 's/^/    /'
-            ;;
-        *) record 1 "all of $old is declared as it was" ;;
-        esac
+        return
     fi
+    case $VERSION,$SL_ABI_STRICT in
+    0.*, | *-dev,)
+        echo "changed since $1, before a release:"
+        details | sed 's/^/    /'
+        ;;
+    *) record 1 "all of $1 is declared as it was" ;;
+    esac
+}
+
+# ---- what is named: adapters, Python, JavaScript, Octave ----
+
+names . >$dir/names.txt || exit 1
+for known in tests/abi/names-"${VERSION%%.*}".*.txt; do
+    [ -f "$known" ] || continue
+    names . "$known" >$dir/report 2>&1
+    compared "$known" $?
+done
+check "names.py notices what breaks a name, and allows what adds one" \
+    "python3 -B tests/abi/test_names.py"
+
+# ---- what the header declares ----
+
+if command -v abidiff >/dev/null 2>&1; then
+    same "$old" $new >$dir/report
+    status=$?
+    [ $status -eq 0 ] || changed=1
+    compared "$old" $status
     differs "an argument of another type" 's/\(sl_factor_logdet.*\)double \*log/\1float *log/'
     differs "a value of an enum" 's/SL_ERR_PIVOT,/SL_ERR_PIVOT = 17,/'
     differs "a field that moved" 's/^ *sl_int n_cols;/    sl_int n_more, n_cols;/'

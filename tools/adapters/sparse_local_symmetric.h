@@ -43,6 +43,7 @@
 /** A fixed order whose growth is larger does not count eigenvalues. */
 #define SL_SYMMETRIC_GROWTH 1e4
 
+/** The three ways above. */
 typedef enum sl_symmetric_way {
     SL_SYMMETRIC_FIXED,
     SL_SYMMETRIC_PIVOTED,

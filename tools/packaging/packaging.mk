@@ -126,10 +126,10 @@ test-shared: shared ## does the shared library export what the header declares, 
 deps-abi: ## abidiff, which compares declarations
 	@tools/build/deps.sh abidiff=abigail-tools
 
-abi: shared deps-abi ## is what the last release declared as it was, and do programs of one run with the library of the other?
+abi: shared deps-abi ## is what releases declared and named as it was, and do programs of one run with the library of another?
 	@CC='$(CC)' VERSION=$(FULL_VERSION) tests/abi/check_abi.sh
 
-abi-record: deps $(B)/tests/core/test_saved_releases ## at a release: what it declares goes to tests/abi, factors it saves to the corpus
+abi-record: deps $(B)/tests/core/test_saved_releases ## at a release: what it declares and names goes to tests/abi, factors it saves to the corpus
 	@CC='$(CC)' VERSION=$(VERSION) tests/abi/check_abi.sh record
 	@SL_RECORD_SAVED=1 $(B)/tests/core/test_saved_releases
 
