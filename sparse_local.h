@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: efb28d0eab04f02f
+ * FNV-1a of the lines after this comment, without the license: f7731b20ea1b7ba1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,24 +37,24 @@
  *   4963 impl/ matrix: sparse matrices of the caller and of the library
  *   5821 impl/ ordering: fill-reducing orderings of a graph
  *  10596 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12829 impl/ factor: the numbers of L and D
- *  15416 impl/ solve: full and local solves
- *  16928 impl/ singular: null spaces of semidefinite matrices
- *  18179 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20218 impl/ pivots: the order of the pivots by the values of a matrix
- *  20623 impl/ float: L in single precision
- *  20806 impl/ inverse: entries of the inverse, regions
- *  23708 impl/ change: a factor that follows changes of its matrix
- *  25978 impl/ constraints: rows held at values, on a factor that stays
- *  27329 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30044 impl/ fixed: rows fixed at given values
- *  30600 impl/ io: files that are replaced only when they are complete
- *  30819 impl/ files: Matrix Market files, 64-bit indices
- *  31375 impl/ save: factors in files
- *  33346 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34026 impl/ complex: complex Hermitian systems over real factors
- *  34499 impl/ packs: the tables through which the core calls packs
- *  34921 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12832 impl/ factor: the numbers of L and D
+ *  15418 impl/ solve: full and local solves
+ *  16930 impl/ singular: null spaces of semidefinite matrices
+ *  18181 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20220 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20625 impl/ float: L in single precision
+ *  20808 impl/ inverse: entries of the inverse, regions
+ *  23710 impl/ change: a factor that follows changes of its matrix
+ *  25980 impl/ constraints: rows held at values, on a factor that stays
+ *  27331 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30046 impl/ fixed: rows fixed at given values
+ *  30602 impl/ io: files that are replaced only when they are complete
+ *  30821 impl/ files: Matrix Market files, 64-bit indices
+ *  31377 impl/ save: factors in files
+ *  33348 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34028 impl/ complex: complex Hermitian systems over real factors
+ *  34500 impl/ packs: the tables through which the core calls packs
+ *  34922 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11472,7 +11472,10 @@ SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structu
     rows[at] = k;
     relative[at] = up->height - (up->last == k);
     sli_structure_add(v, k);
-    v = bottom != NULL && bottom[up - all] != bottom[v - all] ? all + bottom[up - all] : up;
+    v = bottom != NULL && /* branches untested: one copy stays in a supernode */
+          bottom[up - all] != bottom[v - all] /* branches untested: the same */
+        ? all + bottom[up - all]
+        : up;
   }
 }
 
@@ -15032,10 +15035,9 @@ SLI_COLD static void sli_factor_report_entry(const sl_factor *F, const sl_csc *A
     column = sli_min(S->perm[k], S->perm[j]);
   }
   (void)sli_fail_at(stats, f->status, row, column, f->value,
-      f->position < 0 ? "a coefficient is not finite"
-      : f->status == SL_ERR_NOT_FINITE
-      ? "an entry of A is not finite"
-      : "an entry of A exceeds the range of float");
+      f->status != SL_ERR_NOT_FINITE ? "A is not one matrix of blocks [a -b; b a]"
+      : f->position < 0 ? "a coefficient is not finite"
+      : "an entry of A is not finite");
 }
 
 SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sli_source *from,
@@ -24839,7 +24841,7 @@ static sli_rank_one *sli_path_open(sli_update *u, sl_int v, sl_int s, sl_int cou
     const double *from = (u->is_trial ? last->y : last->w) + last->width;
     sl_int i;
     one->sum = last->sum;
-    one->first_tile = last->below > 0 ? to[0] / SLI_TILE : 0;
+    one->first_tile = to[0] / SLI_TILE;
     memset(one->w + SLI_TILE * one->first_tile, 0,
         (size_t)(rows - SLI_TILE * one->first_tile) * sizeof *one->w);
     for (i = 0; i < last->below; i++) {
@@ -34189,9 +34191,8 @@ static int sli_matrix_is_complex(const sl_csc *A) {
 }
 
 static sl_status sli_complex_suits(const sl_factor *F) {
-  const int has_pairs = !F->S->is_pivoted && sli_rows_are_paired(F->S) &&
-              (!F->rule.replaces || F->null.vectors % 2 == 0);
-  if (has_pairs && F->rule.regularization == 0.0) {
+  if (!F->S->is_pivoted && sli_rows_are_paired(F->S) &&
+      (!F->rule.replaces || F->null.vectors % 2 == 0)) {
     return SL_OK;
   }
   return sli_refuse(SL_ERR_UNSUPPORTED,

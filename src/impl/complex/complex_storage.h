@@ -77,9 +77,8 @@ static int sli_matrix_is_complex(const sl_csc *A) {
 
 /* Both columns of a pair are treated alike. */
 static sl_status sli_complex_suits(const sl_factor *F) {
-    const int has_pairs = !F->S->is_pivoted && sli_rows_are_paired(F->S) &&
-                          (!F->rule.replaces || F->null.vectors % 2 == 0);
-    if (has_pairs && F->rule.regularization == 0.0) {
+    if (!F->S->is_pivoted && sli_rows_are_paired(F->S) &&
+        (!F->rule.replaces || F->null.vectors % 2 == 0)) { /* regularized: there is 1 */
         return SL_OK;
     }
     return sli_refuse(SL_ERR_UNSUPPORTED,
