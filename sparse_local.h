@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f7731b20ea1b7ba1
+ * FNV-1a of the lines after this comment, without the license: 723f38053b372137
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,23 +38,23 @@
  *   5821 impl/ ordering: fill-reducing orderings of a graph
  *  10596 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12832 impl/ factor: the numbers of L and D
- *  15418 impl/ solve: full and local solves
- *  16930 impl/ singular: null spaces of semidefinite matrices
- *  18181 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20220 impl/ pivots: the order of the pivots by the values of a matrix
- *  20625 impl/ float: L in single precision
- *  20808 impl/ inverse: entries of the inverse, regions
- *  23710 impl/ change: a factor that follows changes of its matrix
- *  25980 impl/ constraints: rows held at values, on a factor that stays
- *  27331 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30046 impl/ fixed: rows fixed at given values
- *  30602 impl/ io: files that are replaced only when they are complete
- *  30821 impl/ files: Matrix Market files, 64-bit indices
- *  31377 impl/ save: factors in files
- *  33348 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34028 impl/ complex: complex Hermitian systems over real factors
- *  34500 impl/ packs: the tables through which the core calls packs
- *  34922 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15417 impl/ solve: full and local solves
+ *  16929 impl/ singular: null spaces of semidefinite matrices
+ *  18180 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20219 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20624 impl/ float: L in single precision
+ *  20807 impl/ inverse: entries of the inverse, regions
+ *  23709 impl/ change: a factor that follows changes of its matrix
+ *  25979 impl/ constraints: rows held at values, on a factor that stays
+ *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30045 impl/ fixed: rows fixed at given values
+ *  30601 impl/ io: files that are replaced only when they are complete
+ *  30820 impl/ files: Matrix Market files, 64-bit indices
+ *  31376 impl/ save: factors in files
+ *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34027 impl/ complex: complex Hermitian systems over real factors
+ *  34499 impl/ packs: the tables through which the core calls packs
+ *  34921 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13998,8 +13998,7 @@ static sli_task sli_job_draw(sli_job *job) {
       task.at = at;
       return task;
     }
-    if ((job->F->type->store == NULL || job->F->work.panel_room == 0 || job->in_turn == -1 ||
-        job->in_turn == at) &&
+    if ((job->F->type->store == NULL || job->in_turn == -1 || job->in_turn == at) &&
         sli_top_draw(job, at, &task)) {
       job->in_turn = at;
       p->tops[at].is_begun = 1;

@@ -236,7 +236,7 @@ static void null_vectors_come_in_pairs(void **state) {
     singular_free(&y);
 }
 
-/* As above, with a vector that is real where the order ends: the first of two rows would be null. */
+/* As above, with a vector that is real where the order ends: the first row would be null. */
 static void null_rows_come_in_pairs(void **state) {
     (void)state;
     singular y;
