@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 723f38053b372137
+ * FNV-1a of the lines after this comment, without the license: febdc95627d02a74
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -45,16 +45,16 @@
  *  20624 impl/ float: L in single precision
  *  20807 impl/ inverse: entries of the inverse, regions
  *  23709 impl/ change: a factor that follows changes of its matrix
- *  25979 impl/ constraints: rows held at values, on a factor that stays
- *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30045 impl/ fixed: rows fixed at given values
- *  30601 impl/ io: files that are replaced only when they are complete
- *  30820 impl/ files: Matrix Market files, 64-bit indices
- *  31376 impl/ save: factors in files
- *  33347 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34027 impl/ complex: complex Hermitian systems over real factors
- *  34499 impl/ packs: the tables through which the core calls packs
- *  34921 impl/ templates: the header includes them from itself, once for each instruction set
+ *  25976 impl/ constraints: rows held at values, on a factor that stays
+ *  27327 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30042 impl/ fixed: rows fixed at given values
+ *  30598 impl/ io: files that are replaced only when they are complete
+ *  30817 impl/ files: Matrix Market files, 64-bit indices
+ *  31373 impl/ save: factors in files
+ *  33344 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34024 impl/ complex: complex Hermitian systems over real factors
+ *  34496 impl/ packs: the tables through which the core calls packs
+ *  34918 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -25139,9 +25139,8 @@ static void sli_rank_split(const sli_rank *q, sli_rank_rest *best) {
 }
 
 static void sli_rank_plan(sli_rank *q, int may_fail) {
-  const double whole = (double)q->whole.entries, log = whole;
   const int prefers_log = sli_rank_prefers_log(q);
-  const double least = whole + 2.0 * SLI_RANK_PATH;
+  const double least = (double)q->whole.entries + 2.0 * SLI_RANK_PATH;
   sli_rank_rest none, best, one;
   sli_rank_path path;
   path.entries = q->whole.entries;
@@ -25153,9 +25152,7 @@ static void sli_rank_plan(sli_rank *q, int may_fail) {
   if (q->count > SLI_TILE || one.cost > least + SLI_RANK_PATH * (double)q->count) {
     sli_rank_split(q, &best);
   }
-  if (q->count <= SLI_TILE &&
-      (one.cost <= best.cost ||
-      (may_fail && !prefers_log && 1.5 * one.cost <= best.cost + log))) {
+  if (q->count <= SLI_TILE && one.cost <= best.cost) {
     best = one;
     q->ends[0] = q->count;
   }
