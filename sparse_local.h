@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: febdc95627d02a74
+ * FNV-1a of the lines after this comment, without the license: 161f044eb7d3421f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,23 +38,23 @@
  *   5821 impl/ ordering: fill-reducing orderings of a graph
  *  10596 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12832 impl/ factor: the numbers of L and D
- *  15417 impl/ solve: full and local solves
- *  16929 impl/ singular: null spaces of semidefinite matrices
- *  18180 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20219 impl/ pivots: the order of the pivots by the values of a matrix
- *  20624 impl/ float: L in single precision
- *  20807 impl/ inverse: entries of the inverse, regions
- *  23709 impl/ change: a factor that follows changes of its matrix
- *  25976 impl/ constraints: rows held at values, on a factor that stays
- *  27327 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30042 impl/ fixed: rows fixed at given values
- *  30598 impl/ io: files that are replaced only when they are complete
- *  30817 impl/ files: Matrix Market files, 64-bit indices
- *  31373 impl/ save: factors in files
- *  33344 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34024 impl/ complex: complex Hermitian systems over real factors
- *  34496 impl/ packs: the tables through which the core calls packs
- *  34918 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15418 impl/ solve: full and local solves
+ *  16930 impl/ singular: null spaces of semidefinite matrices
+ *  18181 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20220 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20625 impl/ float: L in single precision
+ *  20808 impl/ inverse: entries of the inverse, regions
+ *  23710 impl/ change: a factor that follows changes of its matrix
+ *  25977 impl/ constraints: rows held at values, on a factor that stays
+ *  27328 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30043 impl/ fixed: rows fixed at given values
+ *  30599 impl/ io: files that are replaced only when they are complete
+ *  30818 impl/ files: Matrix Market files, 64-bit indices
+ *  31374 impl/ save: factors in files
+ *  33343 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34023 impl/ complex: complex Hermitian systems over real factors
+ *  34495 impl/ packs: the tables through which the core calls packs
+ *  34917 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13998,7 +13998,8 @@ static sli_task sli_job_draw(sli_job *job) {
       task.at = at;
       return task;
     }
-    if ((job->F->type->store == NULL || job->in_turn == -1 || job->in_turn == at) &&
+    if ((job->F->type->store == NULL || job->F->work.panel_room == 0 || job->in_turn == -1 ||
+        job->in_turn == at) &&
         sli_top_draw(job, at, &task)) {
       job->in_turn = at;
       p->tops[at].is_begun = 1;
@@ -30564,7 +30565,7 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
   if (status != SL_OK || nrhs == 0 || D->n == 0) {
     return status;
   }
-  if (D->is_stale || !D->F->is_valid) { /* second branch untested: then it is stale, too */
+  if (D->is_stale || !D->F->is_valid) { /* branches untested: then it is stale, too */
     return sli_refuse(SL_ERR_STALE, "the last sl_fixed_refactor has failed");
   }
   own = sli_work_own(&D->allocator);
@@ -31385,9 +31386,10 @@ static sl_status sli_map_allows(int64_t size) {
   if (size <= 0) {
     return sli_refuse(SL_ERR_IO, sli_no_file);
   }
-  return (uint64_t)size <= SIZE_MAX / 2 /* branch untested: on 32 bits only */
+  return (uint64_t)size <= SIZE_MAX / 2
          ? SL_OK
-         : sli_refuse(SL_ERR_TOO_LARGE, "the file is larger than the address space");
+         : sli_refuse(SL_ERR_TOO_LARGE, /* branches untested: on 32 bits only */
+             "the file is larger than the address space");
 }
 #endif
 
@@ -31942,9 +31944,6 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
   F->rule.replaces = skips || g->regularization != 0.0;
-  if (F->type->suits != NULL && !F->type->suits(F)) {
-    return 0;
-  }
   F->identity.a = g->identity[0];
   F->identity.b = g->identity[1];
   F->generation = F->certificate.generation = 1;
@@ -32759,7 +32758,7 @@ static sl_status sli_read_front(sli_reading *r) {
       return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
           sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
     }
-    if (f->factor.skips_null && !sli_skips_nulls(&r->F)) {
+    if (f->factor.skips_null && !sli_skips_nulls(&r->F)) { /* branches untested: as above */
       return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: null spaces are there */
           "a factor with null pivots: compiled with SL_NO_SINGULAR");
     }
@@ -39222,7 +39221,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s,
     const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
     const sli_rows below =
       sli_rows_of(rows.index + (row + inner - w), height - (sl_int)row - inner, stride);
-    const int is_below = SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS;
+    const int is_below = inner == 0 && below.count >= SLW_ROWS;
     const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
     for (group = 0; group < stride; group += SLW_NRHS) {
       double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
@@ -39251,7 +39250,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s,
       if (inner > 0) {
         SLI_TRIANGLE
       }
-      if (is_below) {
+      if (SLI_IS_DIRECT && is_below) {
         SLW_EACH(SLI_ADD_BELOW, x + group)
         continue;
       }
@@ -39260,7 +39259,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s,
         SLW_NAME(rows_out)(buf, inner, own, below, x + group);
       }
     }
-    if (lane + SLW_ROWS == SLI_TILE) {
+    if (SLW_ROWS == SLI_TILE || lane + SLW_ROWS == SLI_TILE) {
       tile += SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
     }
   }
@@ -39332,7 +39331,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_backward)(const sli_step *s
     const sli_rows below =
       sli_rows_of(rows.index + (row + inner - w), height - (sl_int)row - inner, stride);
     const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-    if (lane + SLW_ROWS == SLI_TILE) {
+    if (SLW_ROWS == SLI_TILE || lane + SLW_ROWS == SLI_TILE) {
       tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
     }
     for (group = 0; group < stride; group += SLW_NRHS) {

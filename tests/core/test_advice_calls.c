@@ -60,6 +60,7 @@ SPOILED(nan_error_limit, opt.error_limit = (double)NAN)
 SPOILED(negative_regularization, opt.regularization = -1.0)
 SPOILED(regularized_skips, (opt.regularization = 1e-8, opt.pivots = SL_PIVOTS_SKIP_NULL))
 SPOILED(too_many_nulls, (opt.pivots = SL_PIVOTS_SKIP_NULL, opt.null_vector_count = 33))
+SPOILED(negative_nulls, (opt.pivots = SL_PIVOTS_SKIP_NULL, opt.null_vector_count = -1))
 SPOILED(no_null_vector, (opt.pivots = SL_PIVOTS_SKIP_NULL, opt.null_vector_count = 2))
 SPOILED(no_signs, (opt.regularization = 1e-8, opt.signs = twos))
 #if !defined(SL_NO_SINGULAR)
@@ -269,6 +270,7 @@ static const advice_t advices[] = {
     {"options.regularization is below 0 or not finite", negative_regularization},
     {"options.regularization needs options.pivots = SL_PIVOTS_NONZERO", regularized_skips},
     {"options.null_vector_count is below 0 or above 32", too_many_nulls},
+    {"options.null_vector_count is below 0 or above 32", negative_nulls},
     {"options.null_vector is NULL", no_null_vector},
     {"options.signs has a value other than -1, 0 and 1", no_signs},
 #if defined(SL_NO_METIS) || !defined(SL_METIS)

@@ -168,6 +168,9 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, set, 1, set, 2, NULL, &stats));
     assert_int_equal(stats.error.row, N);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, set, -1, set, 1, NULL, NULL));
+    const sl_int below[1] = {-1};
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, below, 1, set, 1, NULL, &stats));
+    assert_int_equal(stats.error.row, -1);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, NULL, set, 1, set, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(NULL, y.S, set, 1, set, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_logdet(NULL, &value, &sign));

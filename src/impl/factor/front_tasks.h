@@ -156,7 +156,8 @@ static sli_task sli_job_draw(sli_job *job) {
             task.at = at;
             return task;
         }
-        if ((job->F->type->store == NULL || job->in_turn == -1 || job->in_turn == at) &&
+        if ((job->F->type->store == NULL || job->F->work.panel_room == 0 || job->in_turn == -1 ||
+             job->in_turn == at) &&
             sli_top_draw(job, at, &task)) {
             job->in_turn = at;
             p->tops[at].is_begun = 1;

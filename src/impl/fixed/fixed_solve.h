@@ -152,7 +152,7 @@ SL_API sl_status sl_fixed_solve(const sl_fixed *D, double *X, size_t ldx, const 
     if (status != SL_OK || nrhs == 0 || D->n == 0) {
         return status;
     }
-    if (D->is_stale || !D->F->is_valid) { /* second branch untested: then it is stale, too */
+    if (D->is_stale || !D->F->is_valid) { /* branches untested: then it is stale, too */
         return sli_refuse(SL_ERR_STALE, "the last sl_fixed_refactor has failed");
     }
     own = sli_work_own(&D->allocator);

@@ -163,9 +163,6 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->rule.null_tolerance = g->null_tolerance;
     F->rule.regularization = g->regularization;
     F->rule.replaces = skips || g->regularization != 0.0;
-    if (F->type->suits != NULL && !F->type->suits(F)) {
-        return 0;
-    }
     F->identity.a = g->identity[0];
     F->identity.b = g->identity[1];
     F->generation = F->certificate.generation = 1;
