@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 161f044eb7d3421f
+ * FNV-1a of the lines after this comment, without the license: 32d7c356870c2f8d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,23 +38,23 @@
  *   5821 impl/ ordering: fill-reducing orderings of a graph
  *  10596 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  12832 impl/ factor: the numbers of L and D
- *  15418 impl/ solve: full and local solves
- *  16930 impl/ singular: null spaces of semidefinite matrices
- *  18181 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20220 impl/ pivots: the order of the pivots by the values of a matrix
- *  20625 impl/ float: L in single precision
- *  20808 impl/ inverse: entries of the inverse, regions
- *  23710 impl/ change: a factor that follows changes of its matrix
- *  25977 impl/ constraints: rows held at values, on a factor that stays
- *  27328 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30043 impl/ fixed: rows fixed at given values
- *  30599 impl/ io: files that are replaced only when they are complete
- *  30818 impl/ files: Matrix Market files, 64-bit indices
- *  31374 impl/ save: factors in files
- *  33343 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34023 impl/ complex: complex Hermitian systems over real factors
- *  34495 impl/ packs: the tables through which the core calls packs
- *  34917 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15420 impl/ solve: full and local solves
+ *  16932 impl/ singular: null spaces of semidefinite matrices
+ *  18183 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20222 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20627 impl/ float: L in single precision
+ *  20810 impl/ inverse: entries of the inverse, regions
+ *  23712 impl/ change: a factor that follows changes of its matrix
+ *  25979 impl/ constraints: rows held at values, on a factor that stays
+ *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30045 impl/ fixed: rows fixed at given values
+ *  30601 impl/ io: files that are replaced only when they are complete
+ *  30820 impl/ files: Matrix Market files, 64-bit indices
+ *  31376 impl/ save: factors in files
+ *  33345 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34025 impl/ complex: complex Hermitian systems over real factors
+ *  34496 impl/ packs: the tables through which the core calls packs
+ *  34918 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12874,9 +12874,11 @@ typedef struct sli_singular {
 static const sli_singular *sli_singular_of(int skips_nulls);
 static const char *sli_singular_missing(const sl_options *opt);
 SLI_INLINE sl_status sli_singular_needed(void) {
-  return sli_singular_of(1) == NULL /* branches untested: they are */
-         ? sli_refuse(SL_ERR_UNSUPPORTED, "the call: compiled with SL_NO_SINGULAR")
-         : SL_OK;
+  if (sli_singular_of(1) == NULL) { /* branches untested: they are */
+    return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
+        "the call: compiled with SL_NO_SINGULAR");
+  }
+  return SL_OK;
 }
 
 typedef struct sli_null_space {
@@ -14898,9 +14900,9 @@ SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source 
 }
 
 SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
-  const char *what = sli_singular_of(1) == NULL /* branches untested: null spaces are there */
+  const char *what = sli_singular_of(1) == NULL
                ? NULL
-               : sli_advice_of_matrix(F, from, k);
+               : sli_advice_of_matrix(F, from, k); /* branches untested: they are */
   return what != NULL ? what
        : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
          ? "the pivot is within options.null_tolerance, which is above its default"
@@ -34389,7 +34391,6 @@ typedef struct sli_complex_set {
 
 static sl_status sli_complex_check(sl_int n, const sli_complex_set *set) {
   return n % 2 != 0 ? sli_argument("the system is not that of a complex matrix: n is odd")
-       : set->rows != NULL && set->count < 0 ? sli_argument("a set has a size below 0")
        : set->rows != NULL && set->count > SLI_ROWS_MAX / 2
          ? sli_refuse(SL_ERR_TOO_LARGE, "a set of more than 2^30 - 4 rows")
          : SL_OK;
