@@ -116,6 +116,17 @@ static void a_solution_may_overflow(void **state) {
     sl_fixed_free(D);
 }
 
+/* Where all rows are fixed, A may have no entries, and so no values. */
+static void a_matrix_without_entries_has_no_values(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 0, 0}, rows[2] = {0, 1};
+    const sl_csc A = {2, 2, p, NULL, NULL};
+    sl_fixed *D = NULL;
+    SL_CHECK(sl_fixed_create(&D, &A, rows, 2, NULL, NULL));
+    SL_CHECK(sl_fixed_refactor(D, &A, NULL));
+    sl_fixed_free(D);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_negative_pivot_is_named_by_its_row),
@@ -123,6 +134,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_pattern_is_refused),
         cmocka_unit_test(growth_is_refused_until_other_values_come),
         cmocka_unit_test(a_solution_may_overflow),
+        cmocka_unit_test(a_matrix_without_entries_has_no_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
