@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bab3240271b7165c
+ * FNV-1a of the lines after this comment, without the license: 32d7c356870c2f8d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,24 +37,24 @@
  *   4963 impl/ matrix: sparse matrices of the caller and of the library
  *   5821 impl/ ordering: fill-reducing orderings of a graph
  *  10596 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  12829 impl/ factor: the numbers of L and D
- *  15416 impl/ solve: full and local solves
- *  16928 impl/ singular: null spaces of semidefinite matrices
- *  18179 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  20218 impl/ pivots: the order of the pivots by the values of a matrix
- *  20623 impl/ float: L in single precision
- *  20806 impl/ inverse: entries of the inverse, regions
- *  23708 impl/ change: a factor that follows changes of its matrix
- *  25978 impl/ constraints: rows held at values, on a factor that stays
- *  27329 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30044 impl/ fixed: rows fixed at given values
- *  30600 impl/ io: files that are replaced only when they are complete
- *  30819 impl/ files: Matrix Market files, 64-bit indices
- *  31375 impl/ save: factors in files
- *  33343 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34023 impl/ complex: complex Hermitian systems over real factors
- *  34495 impl/ packs: the tables through which the core calls packs
- *  34917 impl/ templates: the header includes them from itself, once for each instruction set
+ *  12832 impl/ factor: the numbers of L and D
+ *  15420 impl/ solve: full and local solves
+ *  16932 impl/ singular: null spaces of semidefinite matrices
+ *  18183 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  20222 impl/ pivots: the order of the pivots by the values of a matrix
+ *  20627 impl/ float: L in single precision
+ *  20810 impl/ inverse: entries of the inverse, regions
+ *  23712 impl/ change: a factor that follows changes of its matrix
+ *  25979 impl/ constraints: rows held at values, on a factor that stays
+ *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30045 impl/ fixed: rows fixed at given values
+ *  30601 impl/ io: files that are replaced only when they are complete
+ *  30820 impl/ files: Matrix Market files, 64-bit indices
+ *  31376 impl/ save: factors in files
+ *  33345 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34025 impl/ complex: complex Hermitian systems over real factors
+ *  34496 impl/ packs: the tables through which the core calls packs
+ *  34918 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11472,7 +11472,10 @@ SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structu
     rows[at] = k;
     relative[at] = up->height - (up->last == k);
     sli_structure_add(v, k);
-    v = bottom != NULL && bottom[up - all] != bottom[v - all] ? all + bottom[up - all] : up;
+    v = bottom != NULL && /* branches untested: one copy stays in a supernode */
+          bottom[up - all] != bottom[v - all] /* branches untested: the same */
+        ? all + bottom[up - all]
+        : up;
   }
 }
 
@@ -12871,9 +12874,11 @@ typedef struct sli_singular {
 static const sli_singular *sli_singular_of(int skips_nulls);
 static const char *sli_singular_missing(const sl_options *opt);
 SLI_INLINE sl_status sli_singular_needed(void) {
-  return sli_singular_of(1) == NULL /* branches untested: they are */
-         ? sli_refuse(SL_ERR_UNSUPPORTED, "the call: compiled with SL_NO_SINGULAR")
-         : SL_OK;
+  if (sli_singular_of(1) == NULL) { /* branches untested: they are */
+    return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
+        "the call: compiled with SL_NO_SINGULAR");
+  }
+  return SL_OK;
 }
 
 typedef struct sli_null_space {
@@ -14895,9 +14900,9 @@ SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source 
 }
 
 SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
-  const char *what = sli_singular_of(1) == NULL /* branches untested: null spaces are there */
+  const char *what = sli_singular_of(1) == NULL
                ? NULL
-               : sli_advice_of_matrix(F, from, k);
+               : sli_advice_of_matrix(F, from, k); /* branches untested: they are */
   return what != NULL ? what
        : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
          ? "the pivot is within options.null_tolerance, which is above its default"
@@ -15032,10 +15037,9 @@ SLI_COLD static void sli_factor_report_entry(const sl_factor *F, const sl_csc *A
     column = sli_min(S->perm[k], S->perm[j]);
   }
   (void)sli_fail_at(stats, f->status, row, column, f->value,
-      f->position < 0 ? "a coefficient is not finite"
-      : f->status == SL_ERR_NOT_FINITE
-      ? "an entry of A is not finite"
-      : "an entry of A exceeds the range of float");
+      f->status != SL_ERR_NOT_FINITE ? "A is not one matrix of blocks [a -b; b a]"
+      : f->position < 0 ? "a coefficient is not finite"
+      : "an entry of A is not finite");
 }
 
 SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sli_source *from,
@@ -24839,7 +24843,7 @@ static sli_rank_one *sli_path_open(sli_update *u, sl_int v, sl_int s, sl_int cou
     const double *from = (u->is_trial ? last->y : last->w) + last->width;
     sl_int i;
     one->sum = last->sum;
-    one->first_tile = last->below > 0 ? to[0] / SLI_TILE : 0;
+    one->first_tile = to[0] / SLI_TILE;
     memset(one->w + SLI_TILE * one->first_tile, 0,
         (size_t)(rows - SLI_TILE * one->first_tile) * sizeof *one->w);
     for (i = 0; i < last->below; i++) {
@@ -25138,9 +25142,8 @@ static void sli_rank_split(const sli_rank *q, sli_rank_rest *best) {
 }
 
 static void sli_rank_plan(sli_rank *q, int may_fail) {
-  const double whole = (double)q->whole.entries, log = whole;
   const int prefers_log = sli_rank_prefers_log(q);
-  const double least = whole + 2.0 * SLI_RANK_PATH;
+  const double least = (double)q->whole.entries + 2.0 * SLI_RANK_PATH;
   sli_rank_rest none, best, one;
   sli_rank_path path;
   path.entries = q->whole.entries;
@@ -25152,9 +25155,7 @@ static void sli_rank_plan(sli_rank *q, int may_fail) {
   if (q->count > SLI_TILE || one.cost > least + SLI_RANK_PATH * (double)q->count) {
     sli_rank_split(q, &best);
   }
-  if (q->count <= SLI_TILE &&
-      (one.cost <= best.cost ||
-      (may_fail && !prefers_log && 1.5 * one.cost <= best.cost + log))) {
+  if (q->count <= SLI_TILE && one.cost <= best.cost) {
     best = one;
     q->ends[0] = q->count;
   }
@@ -31387,9 +31388,10 @@ static sl_status sli_map_allows(int64_t size) {
   if (size <= 0) {
     return sli_refuse(SL_ERR_IO, sli_no_file);
   }
-  return (uint64_t)size <= SIZE_MAX / 2 /* branches untested: on 32 bits only */
+  return (uint64_t)size <= SIZE_MAX / 2
          ? SL_OK
-         : sli_refuse(SL_ERR_TOO_LARGE, "the file is larger than the address space");
+         : sli_refuse(SL_ERR_TOO_LARGE, /* branches untested: on 32 bits only */
+             "the file is larger than the address space");
 }
 #endif
 
@@ -32758,7 +32760,7 @@ static sl_status sli_read_front(sli_reading *r) {
       return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
           sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
     }
-    if (f->factor.skips_null && !sli_skips_nulls(&r->F)) {
+    if (f->factor.skips_null && !sli_skips_nulls(&r->F)) { /* branches untested: as above */
       return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: null spaces are there */
           "a factor with null pivots: compiled with SL_NO_SINGULAR");
     }
@@ -34186,12 +34188,12 @@ static int sli_matrix_is_complex(const sl_csc *A) {
 }
 
 static sl_status sli_complex_suits(const sl_factor *F) {
-  return !F->S->is_pivoted && sli_rows_are_paired(F->S) &&
-           (!F->rule.replaces || F->null.vectors % 2 == 0)
-         ? SL_OK
-         : sli_refuse(
-             SL_ERR_UNSUPPORTED,
-             "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized");
+  if (!F->S->is_pivoted && sli_rows_are_paired(F->S) &&
+      (!F->rule.replaces || F->null.vectors % 2 == 0)) {
+    return SL_OK;
+  }
+  return sli_refuse(SL_ERR_UNSUPPORTED,
+      "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized");
 }
 
 static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {
@@ -34389,7 +34391,6 @@ typedef struct sli_complex_set {
 
 static sl_status sli_complex_check(sl_int n, const sli_complex_set *set) {
   return n % 2 != 0 ? sli_argument("the system is not that of a complex matrix: n is odd")
-       : set->rows != NULL && set->count < 0 ? sli_argument("a set has a size below 0")
        : set->rows != NULL && set->count > SLI_ROWS_MAX / 2
          ? sli_refuse(SL_ERR_TOO_LARGE, "a set of more than 2^30 - 4 rows")
          : SL_OK;
@@ -39221,7 +39222,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s,
     const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
     const sli_rows below =
       sli_rows_of(rows.index + (row + inner - w), height - (sl_int)row - inner, stride);
-    const int is_below = SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS;
+    const int is_below = inner == 0 && below.count >= SLW_ROWS;
     const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
     for (group = 0; group < stride; group += SLW_NRHS) {
       double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
@@ -39250,7 +39251,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s,
       if (inner > 0) {
         SLI_TRIANGLE
       }
-      if (is_below) {
+      if (SLI_IS_DIRECT && is_below) {
         SLW_EACH(SLI_ADD_BELOW, x + group)
         continue;
       }
@@ -39259,7 +39260,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s,
         SLW_NAME(rows_out)(buf, inner, own, below, x + group);
       }
     }
-    if (lane + SLW_ROWS == SLI_TILE) {
+    if (SLW_ROWS == SLI_TILE || lane + SLW_ROWS == SLI_TILE) {
       tile += SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
     }
   }
@@ -39331,7 +39332,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_backward)(const sli_step *s
     const sli_rows below =
       sli_rows_of(rows.index + (row + inner - w), height - (sl_int)row - inner, stride);
     const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-    if (lane + SLW_ROWS == SLI_TILE) {
+    if (SLW_ROWS == SLI_TILE || lane + SLW_ROWS == SLI_TILE) {
       tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
     }
     for (group = 0; group < stride; group += SLW_NRHS) {

@@ -236,10 +236,112 @@ static void null_vectors_come_in_pairs(void **state) {
     singular_free(&y);
 }
 
+/* As above, with a vector that is real where the order ends: the first row would be null. */
+static void null_rows_come_in_pairs(void **state) {
+    (void)state;
+    singular y;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    singular_make(&y, 0, SL_ISA_AUTO);
+    const sl_int *at = sl_symbolic_view(y.S).iperm;
+    for (sl_int part = 0; part < PARTS; part++) {
+        sl_int end = part * NODES;
+        for (sl_int k = part * NODES; k < (part + 1) * NODES; k++) {
+            end = at[2 * k] > at[2 * end] ? k : end;
+        }
+        const double a = y.z[2 * end], b = y.z[2 * end + 1];
+        for (sl_int k = part * NODES; k < (part + 1) * NODES; k++) {
+            const double u = y.z[2 * k], v = y.z[2 * k + 1];
+            y.z[2 * k] = a * u + b * v;
+            y.z[2 * k + 1] = a * v - b * u;
+            y.z[N + 2 * k] = 1.0 + k % 7;
+            y.z[N + 2 * k + 1] = 1.0 + k % 5;
+        }
+    }
+    const isa_list_t isas = isas_with_storages();
+    for (int k = 0; k < isas.count; k++) {
+        const sl_options opt = singular_options(&y, 0, isas.isa[k], SL_STORAGE_COMPLEX);
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, y.S, &y.A, &opt, &stats));
+        assert_non_null(strstr(stats.error.what, "options.null_vector"));
+    }
+    singular_free(&y);
+}
+
+/* A path of vectors of two rows, which the edges turn: 4 null vectors, real or complex ones. */
+static void several_null_vectors_in_both_storages(void **state) {
+    (void)state;
+    enum { LENGTH = 12, ROWS = 2 * LENGTH, REAL = 2 * ROWS };
+    for (int is_complex = 0; is_complex < 2; is_complex++) {
+        sl_int p[ROWS + 1], e = 0;
+        sl_int i[4 * ROWS];
+        double x[8 * ROWS], z[4][REAL] = {{0.0}}, b[REAL], y[2][REAL], r[REAL], backward;
+        for (sl_int k = 0; k < LENGTH; k++) { /* columns of rotations, times a phase */
+            for (int c = 0; c < 2; c++) {
+                for (int row = 0; row < 2; row++) {
+                    const double size = c == row ? cos(2.0 * k) : c ? -sin(2.0 * k) : sin(2.0 * k);
+                    const double phase = is_complex ? 0.7 * k : 0.0;
+                    double *u = z[2 * c] + 4 * k + 2 * row, *v = z[2 * c + 1] + 4 * k + 2 * row;
+                    u[0] = v[1] = size * cos(phase);
+                    u[1] = size * sin(phase);
+                    v[0] = -u[1];
+                }
+            }
+        }
+        for (sl_int j = 0; j < ROWS; j++) {
+            const sl_int node = j / 2;
+            p[j] = e;
+            for (sl_int row = j; row < ROWS && row < 2 * node + 4; row++) {
+                double sum[2] = {0.0, 0.0};
+                for (int c = 0; c < 2 && row / 2 > node; c++) { /* z_row z_j' */
+                    const double *u = z[2 * c] + 2 * row, *v = z[2 * c] + 2 * j;
+                    sum[0] -= u[0] * v[0] + u[1] * v[1];
+                    sum[1] -= u[1] * v[0] - u[0] * v[1];
+                }
+                i[e] = row;
+                x[2 * e] = row == j ? (node > 0) + (node + 1 < LENGTH) : sum[0];
+                x[2 * e + 1] = sum[1];
+                e++;
+            }
+        }
+        p[ROWS] = e;
+        const sl_hermitian H = {ROWS, p, i, x, NULL};
+        sl_matrix *M = NULL;
+        sl_symbolic *S = NULL;
+        sl_options opt = options_none();
+        SL_CHECK(sl_matrix_from_hermitian(&M, &H, NULL, NULL));
+        const sl_csc A = sl_matrix_view(M);
+        opt.block_size = 2;
+        SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+        for (sl_int k = 0; k < REAL; k++) {
+            r[k] = sin(1.0 + k);
+        }
+        SL_CHECK(sl_csc_multiply(&A, SL_AS_SYMMETRIC, b, REAL, r, REAL, 1));
+        for (int m = 0; m < 2; m++) {
+            sl_factor *F = NULL;
+            opt = options_none();
+            opt.storage = m == 0 ? SL_STORAGE_DOUBLE : SL_STORAGE_COMPLEX;
+            opt.pivots = SL_PIVOTS_SKIP_NULL;
+            opt.null_vector = z[0];
+            opt.null_vector_count = 4;
+            SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+            assert_int_equal(sl_factor_view(F).info.null, 4);
+            SL_CHECK(sl_factor_solve(F, y[m], REAL, b, REAL, 1, NULL));
+            SL_CHECK(sl_csc_residual(&A, r, REAL, &backward, y[m], REAL, b, REAL, 1));
+            assert_true(backward <= 64.0 * DBL_EPSILON);
+            sl_factor_free(F);
+        }
+        assert_near(y[1], y[0], REAL, 1e-12);
+        sl_symbolic_free(S);
+        sl_matrix_free(M);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(singular_systems_in_both_storages),
         cmocka_unit_test(null_vectors_come_in_pairs),
+        cmocka_unit_test(null_rows_come_in_pairs),
+        cmocka_unit_test(several_null_vectors_in_both_storages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

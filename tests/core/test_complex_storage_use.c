@@ -51,6 +51,7 @@ static void what_is_not_complex_is_refused(void **state) {
     double *x = test_reals(entries);
     sl_csc A = y.A;
     sl_options opt = options_none();
+    sl_stats stats;
     size_t bytes;
     A.x = x;
     for (size_t k = 0; k < entries; k++) { /* each entry once */
@@ -58,6 +59,8 @@ static void what_is_not_complex_is_refused(void **state) {
         x[k] += 0.5;
         assert_int_equal(create(y.S, &A, opt), SL_ERR_UNSUPPORTED);
     }
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_refactor(y.F[1], &A, &stats));
+    assert_non_null(strstr(stats.error.what, "not one matrix of blocks"));
     assert_int_equal(sl_factor_refactor(y.F[1], &A, NULL), SL_ERR_UNSUPPORTED);
     assert_int_equal(sl_factor_solve(y.F[1], x, (size_t)y.n, x, (size_t)y.n, 1, NULL),
                      SL_ERR_STALE);

@@ -192,6 +192,49 @@ static void changed_factors_follow(void **state) {
     followed_free(&y);
 }
 
+/* A change too small for the pivot and for the largest entry shows in the magnitude of the column,
+ * of which twice as much is added. */
+static void changes_below_rounding_are_noticed(void **state) {
+    (void)state;
+    enum { ROWS = 200, CHANGED = 70 };
+    sl_int p[ROWS + 1], i[2 * ROWS], map[ROWS], count = 0;
+    double x[2 * ROWS];
+    for (sl_int k = 0; k < ROWS; k++) { /* a path */
+        map[k] = k;
+        p[k] = count;
+        i[count] = k;
+        x[count++] = 1.5;
+        if (k + 1 < ROWS) {
+            i[count] = k + 1;
+            x[count++] = -0.5;
+        }
+    }
+    p[ROWS] = count;
+    const sl_int q[2] = {0, 1}, row = CHANGED;
+    const double tiny = sqrt(0.26 * DBL_EPSILON);
+    const sl_csc A = {ROWS, ROWS, p, i, x}, V = {ROWS, 1, q, &row, &tiny};
+    sl_options opt = options_none();
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_NONE);
+    sl_factor *F = NULL, *G = NULL;
+    sl_stats stats;
+    opt.method = SL_METHOD_SUPERNODAL;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    const double before = sl_factor_view(F).D[CHANGED];
+    for (int k = 0; k < 2; k++) {
+        SL_CHECK(sl_factor_edit(&G, F, S, &A, map, &opt, &stats));
+        assert_true(!stats.reuse.is_anew && stats.reuse.kept >= CHANGED);
+        assert_true((stats.reuse.computed > 0) == (k == 1));
+        assert_true(sl_factor_view(G).D[CHANGED] == before);
+        sl_factor_free(G);
+        if (k == 0) {
+            SL_CHECK(sl_factor_rank_update(F, &V, NULL, NULL, NULL));
+            assert_true(sl_factor_view(F).D[CHANGED] == before);
+        }
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 /* What is not suited is factored anew, with the bits of sl_factor_create. */
 static void other_factors_are_made_anew(void **state) {
     (void)state;
@@ -339,6 +382,7 @@ int main(void) {
         cmocka_unit_test(many_flips_follow_each_other),
         cmocka_unit_test(every_changed_value_is_noticed),
         cmocka_unit_test(changed_factors_follow),
+        cmocka_unit_test(changes_below_rounding_are_noticed),
         cmocka_unit_test(other_factors_are_made_anew),
         cmocka_unit_test(singular_laplacians_follow),
         cmocka_unit_test(threads_give_the_same_bits),

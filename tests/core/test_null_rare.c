@@ -340,6 +340,36 @@ static void pairs_of_rows_are_refused(void **state) {
     }
 }
 
+/* Rows are looked at in memory of their own where L is short. Without it the pivot is refused all
+ * the same, with what helps any matrix. */
+static void rows_without_memory_to_look_at_them(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 1, 2, 3}, i[3] = {0, 1, 2};
+    static const double x[3] = {1.0, 0.0, 1.0};
+    static const char *const texts[2] = {"if A is regular", "the row is 0"};
+    const sl_csc A = {3, 3, p, i, x};
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
+    int seen[2] = {0, 0}, is_last = 0;
+    for (int k = 0; !is_last; k++) {
+        counter_t counter = counter_make();
+        const sl_options opt = options_counted(&counter);
+        sl_factor *F = NULL;
+        sl_stats stats;
+        counter.fail_at = k;
+        const sl_status status = sl_factor_create(&F, S, &A, &opt, &stats);
+        is_last = counter.calls <= (size_t)k;
+        if (status != SL_ERR_MEMORY) {
+            assert_int_equal(status, SL_ERR_PIVOT);
+            assert_int_equal(stats.error.row, 1);
+            assert_non_null(strstr(stats.error.what, texts[is_last]));
+            seen[is_last]++;
+        }
+        COUNTER_CLEAN(&counter);
+    }
+    assert_true(seen[0] > 0 && seen[1] == 1);
+    sl_symbolic_free(S);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_of_zeros_in_several_trees),
@@ -353,6 +383,7 @@ int main(void) {
         cmocka_unit_test(a_regular_component_is_not_suspected),
         cmocka_unit_test(rounding_of_many_rows_is_not_suspected),
         cmocka_unit_test(pairs_of_rows_are_refused),
+        cmocka_unit_test(rows_without_memory_to_look_at_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -140,6 +140,10 @@ static void splits_have_two_sides(void **state) {
     d.levels[0].to = to;
     d.leaf_size = 1;
     sli_dissect_start(&d);
+    const sl_int room = d.tree.room;
+    d.tree.room = 2; /* there is one node, and no room for two more */
+    assert_int_equal(sli_dissect_split(&d, 1, bisect_into_halves), 0);
+    d.tree.room = room;
     assert_int_equal(sli_dissect_split(&d, 1, bisect_into_halves), 1);
     assert_int_equal(sli_dissect_split(&d, 1, bisect_into_halves), 2);
     assert_int_equal(sli_dissect_split(&d, 1, bisect_into_all_and_nothing), 0);

@@ -101,7 +101,10 @@ SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structu
         rows[at] = k;
         relative[at] = up->height - (up->last == k);
         sli_structure_add(v, k);
-        v = bottom != NULL && bottom[up - all] != bottom[v - all] ? all + bottom[up - all] : up;
+        v = bottom != NULL && /* branches untested: one copy stays in a supernode */
+                    bottom[up - all] != bottom[v - all] /* branches untested: the same */
+                ? all + bottom[up - all]
+                : up;
     }
 }
 

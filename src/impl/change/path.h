@@ -110,7 +110,7 @@ static sli_rank_one *sli_path_open(sli_update *u, sl_int v, sl_int s, sl_int cou
         const double *from = (u->is_trial ? last->y : last->w) + last->width;
         sl_int i;
         one->sum = last->sum;
-        one->first_tile = last->below > 0 ? to[0] / SLI_TILE : 0;
+        one->first_tile = to[0] / SLI_TILE; /* it has a parent, and so a row below */
         memset(one->w + SLI_TILE * one->first_tile, 0,
                (size_t)(rows - SLI_TILE * one->first_tile) * sizeof *one->w);
         for (i = 0; i < last->below; i++) {

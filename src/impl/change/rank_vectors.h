@@ -242,9 +242,8 @@ static void sli_rank_split(const sli_rank *q, sli_rank_rest *best) {
 /* Splits the vectors, measures the passes, and chooses how they are undone. may_fail: their
  * pivots; one pass may be tried first, several need a copy. */
 static void sli_rank_plan(sli_rank *q, int may_fail) {
-    const double whole = (double)q->whole.entries, log = whole; /* to copy them */
     const int prefers_log = sli_rank_prefers_log(q);
-    const double least = whole + 2.0 * SLI_RANK_PATH; /* of two passes */
+    const double least = (double)q->whole.entries + 2.0 * SLI_RANK_PATH; /* of two passes */
     sli_rank_rest none, best, one;
     sli_rank_path path;
     path.entries = q->whole.entries;
@@ -256,9 +255,8 @@ static void sli_rank_plan(sli_rank *q, int may_fail) {
     if (q->count > SLI_TILE || one.cost > least + SLI_RANK_PATH * (double)q->count) {
         sli_rank_split(q, &best);
     }
-    if (q->count <= SLI_TILE && /* of both signs they are not in one order: its reach is less */
-        (one.cost <= best.cost ||
-         (may_fail && !prefers_log && 1.5 * one.cost <= best.cost + log))) {
+    /* Of both signs they are not in one order: its reach is less. */
+    if (q->count <= SLI_TILE && one.cost <= best.cost) {
         best = one;
         q->ends[0] = q->count;
     }

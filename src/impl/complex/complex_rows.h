@@ -16,7 +16,6 @@ typedef struct sli_complex_set {
 /* Checks a set against the real rows n. A NULL set has no rows of its own. */
 static sl_status sli_complex_check(sl_int n, const sli_complex_set *set) {
     return n % 2 != 0 ? sli_argument("the system is not that of a complex matrix: n is odd")
-           : set->rows != NULL && set->count < 0 ? sli_argument("a set has a size below 0")
            : set->rows != NULL && set->count > SLI_ROWS_MAX / 2
                ? sli_refuse(SL_ERR_TOO_LARGE, "a set of more than 2^30 - 4 rows")
                : SL_OK;

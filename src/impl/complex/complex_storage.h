@@ -75,14 +75,14 @@ static int sli_matrix_is_complex(const sl_csc *A) {
     return 1;
 }
 
-/* Both columns of a pair are treated alike. A regularized factor has one null vector. */
+/* Both columns of a pair are treated alike. */
 static sl_status sli_complex_suits(const sl_factor *F) {
-    return !F->S->is_pivoted && sli_rows_are_paired(F->S) &&
-                   (!F->rule.replaces || F->null.vectors % 2 == 0)
-               ? SL_OK
-               : sli_refuse(
-                     SL_ERR_UNSUPPORTED,
-                     "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized");
+    if (!F->S->is_pivoted && sli_rows_are_paired(F->S) &&
+        (!F->rule.replaces || F->null.vectors % 2 == 0)) { /* regularized: there is 1 */
+        return SL_OK;
+    }
+    return sli_refuse(SL_ERR_UNSUPPORTED,
+                      "SL_STORAGE_COMPLEX: blocks of 2 rows, 2 null vectors, not regularized");
 }
 
 static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {

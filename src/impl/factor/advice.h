@@ -37,9 +37,9 @@ SLI_COLD static const char *sli_advice_of_matrix(sl_factor *F, const sli_source 
 
 /* What helps where pivot k was refused because it is null. */
 SLI_COLD static const char *sli_advice_null(sl_factor *F, const sli_source *from, sl_int k) {
-    const char *what = sli_singular_of(1) == NULL /* branches untested: null spaces are there */
+    const char *what = sli_singular_of(1) == NULL
                            ? NULL
-                           : sli_advice_of_matrix(F, from, k);
+                           : sli_advice_of_matrix(F, from, k); /* branches untested: they are */
     return what != NULL ? what
            : F->rule.null_tolerance > sli_null_tolerance(F->S->n)
                ? "the pivot is within options.null_tolerance, which is above its default"

@@ -17,7 +17,7 @@ SLI_NOINLINE static sl_status sli_factor_fits(const sl_factor *F, const sl_csc *
     return status == SL_OK ? sli_pattern_check(F->S, A, 1) : status;
 }
 
-/* Reports what is not finite, or too large for float. An entry of A has its row and column in A, an
+/* Reports what is not finite, or not complex. An entry of A has its row and column in A, an
  * entry of a sum its row and column in the lower triangle, and a coefficient neither. */
 SLI_COLD static void sli_factor_report_entry(const sl_factor *F, const sl_csc *A,
                                              const sli_failure *f, sl_stats *stats) {
@@ -35,10 +35,9 @@ SLI_COLD static void sli_factor_report_entry(const sl_factor *F, const sl_csc *A
         column = sli_min(S->perm[k], S->perm[j]);
     }
     (void)sli_fail_at(stats, f->status, row, column, f->value,
-                      f->position < 0 ? "a coefficient is not finite"
-                      : f->status == SL_ERR_NOT_FINITE
-                          ? "an entry of A is not finite"
-                          : "an entry of A exceeds the range of float");
+                      f->status != SL_ERR_NOT_FINITE ? "A is not one matrix of blocks [a -b; b a]"
+                      : f->position < 0              ? "a coefficient is not finite"
+                                                     : "an entry of A is not finite");
 }
 
 /* Fills F's stats: the pivot counts and, after a failure, the caller's row and column. has_pivots:

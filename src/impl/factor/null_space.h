@@ -66,9 +66,11 @@ static const sli_singular *sli_singular_of(int skips_nulls);
 static const char *sli_singular_missing(const sl_options *opt);
 /* Refuses a call that is about null spaces if they are not compiled in. */
 SLI_INLINE sl_status sli_singular_needed(void) {
-    return sli_singular_of(1) == NULL /* branches untested: they are */
-               ? sli_refuse(SL_ERR_UNSUPPORTED, "the call: compiled with SL_NO_SINGULAR")
-               : SL_OK;
+    if (sli_singular_of(1) == NULL) {         /* branches untested: they are */
+        return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
+                          "the call: compiled with SL_NO_SINGULAR");
+    }
+    return SL_OK;
 }
 
 /* The null space of a semidefinite matrix: what is known of it, and what solves need. */

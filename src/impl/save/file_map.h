@@ -18,9 +18,10 @@ static sl_status sli_map_allows(int64_t size) {
     if (size <= 0) {
         return sli_refuse(SL_ERR_IO, sli_no_file);
     }
-    return (uint64_t)size <= SIZE_MAX / 2 /* branches untested: on 32 bits only */
+    return (uint64_t)size <= SIZE_MAX / 2
                ? SL_OK
-               : sli_refuse(SL_ERR_TOO_LARGE, "the file is larger than the address space");
+               : sli_refuse(SL_ERR_TOO_LARGE, /* branches untested: on 32 bits only */
+                            "the file is larger than the address space");
 }
 #endif
 

@@ -176,8 +176,8 @@ static sl_status sli_read_front(sli_reading *r) {
             return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: the same */
                               sli_storage_needs(SL_STORAGE_FLOAT)); /* untested: the same */
         }
-        if (f->factor.skips_null && !sli_skips_nulls(&r->F)) {
-            return sli_refuse(SL_ERR_UNSUPPORTED, /* untested: null spaces are there */
+        if (f->factor.skips_null && !sli_skips_nulls(&r->F)) { /* branches untested: as above */
+            return sli_refuse(SL_ERR_UNSUPPORTED,              /* untested: null spaces are there */
                               "a factor with null pivots: compiled with SL_NO_SINGULAR");
         }
     }

@@ -97,7 +97,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s,
         const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
         const sli_rows below =
             sli_rows_of(rows.index + (row + inner - w), height - (sl_int)row - inner, stride);
-        const int is_below = SLI_IS_DIRECT && inner == 0 && below.count >= SLW_ROWS;
+        const int is_below = inner == 0 && below.count >= SLW_ROWS;
         const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
         for (group = 0; group < stride; group += SLW_NRHS) {
             double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
@@ -126,7 +126,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s,
             if (inner > 0) {
                 SLI_TRIANGLE
             }
-            if (is_below) {
+            if (SLI_IS_DIRECT && is_below) {
                 SLW_EACH(SLI_ADD_BELOW, x + group)
                 continue;
             }
@@ -135,7 +135,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_forward)(const sli_step *s,
                 SLW_NAME(rows_out)(buf, inner, own, below, x + group);
             }
         }
-        if (lane + SLW_ROWS == SLI_TILE) {
+        if (SLW_ROWS == SLI_TILE || lane + SLW_ROWS == SLI_TILE) {
             tile += SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
         }
     }
@@ -210,7 +210,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLI_KERNEL(tiles_backward)(const sli_step *s
         const sli_rows below =
             sli_rows_of(rows.index + (row + inner - w), height - (sl_int)row - inner, stride);
         const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-        if (lane + SLW_ROWS == SLI_TILE) {
+        if (SLW_ROWS == SLI_TILE || lane + SLW_ROWS == SLI_TILE) {
             tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
         }
         for (group = 0; group < stride; group += SLW_NRHS) {
