@@ -1,5 +1,5 @@
 /* sparse_local.h 1.0.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 32d7c356870c2f8d
+ * FNV-1a of the lines after this comment, without the license: 54fb3c92d5e461ec
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -45,16 +45,16 @@
  *  20627 impl/ float: L in single precision
  *  20810 impl/ inverse: entries of the inverse, regions
  *  23712 impl/ change: a factor that follows changes of its matrix
- *  25979 impl/ constraints: rows held at values, on a factor that stays
- *  27330 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
- *  30045 impl/ fixed: rows fixed at given values
- *  30601 impl/ io: files that are replaced only when they are complete
- *  30820 impl/ files: Matrix Market files, 64-bit indices
- *  31376 impl/ save: factors in files
- *  33345 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  34025 impl/ complex: complex Hermitian systems over real factors
- *  34496 impl/ packs: the tables through which the core calls packs
- *  34918 impl/ templates: the header includes them from itself, once for each instruction set
+ *  25980 impl/ constraints: rows held at values, on a factor that stays
+ *  27333 impl/ edit: factors of submatrices, and of matrices whose pattern is edited
+ *  30048 impl/ fixed: rows fixed at given values
+ *  30604 impl/ io: files that are replaced only when they are complete
+ *  30823 impl/ files: Matrix Market files, 64-bit indices
+ *  31379 impl/ save: factors in files
+ *  33348 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  34028 impl/ complex: complex Hermitian systems over real factors
+ *  34499 impl/ packs: the tables through which the core calls packs
+ *  34921 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -25346,8 +25346,9 @@ static void sli_rank_note(const sli_update *u) {
   const double own = fmin(u->entry, fabs(u->entry - u->fall));
   const int has_fallen = 16.0 * left < F->history.checked || 16.0 * own < u->entry;
   const double shown = u->sign == 0.0 && has_fallen ? sli_rank_shown(u) : 0.0;
-  const double least = u->sign != 0.0 ? u->top : fmax(DBL_EPSILON * F->history.scale, shown);
-  const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
+  const double known = u->sign != 0.0 ? u->top : shown, rest = u->sign != 0.0 ? 0.0 : DBL_EPSILON;
+  const double scale = fmax(left, fmax(rest * F->history.scale, known));
+  const double local = fmax(fmin(own, scale), fmax(rest * u->entry, known));
   const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
   const double swept = sli_rank_swept(u);
@@ -27156,7 +27157,7 @@ SLI_COLD static double sli_constraints_least(const sli_constraints_solve *w, sl_
          : w->forces[(ptrdiff_t)s * w->lanes + r] / largest;
 }
 
-static int sli_constraints_hold(const sli_constraints_solve *w, const double *x) {
+static int sli_constraints_hold(const sli_constraints_solve *w, const double *x, sl_int fewest) {
   const sl_constraints *P = w->P;
   const sli_reach *R = &w->q->backward;
   const sl_int lanes = w->lanes;
@@ -27166,7 +27167,7 @@ static int sli_constraints_hold(const sli_constraints_solve *w, const double *x)
       const sli_pin *pin = P->pins[p];
       const double g = sli_constraints_value(w, p, r);
       double sum = -g, size = 0.0, weight = 0.0;
-      sl_int s = 0;
+      sl_int s = pin->count < fewest ? -1 : 0;
       for (k = 0; k < pin->count && s != -1; k++) {
         const sl_int column = P->F->S->iperm[pin->rows[k]];
         s = sli_reach_step_of(R, column);
@@ -27237,6 +27238,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
   const sl_int lanes = (sl_int)1 << kind;
   double norms[SLI_TILE];
   sl_int p;
+  int holds;
   w->lanes = lanes;
   if (!sli_constraints_forward(w, &v, norms)) {
     return sli_constraints_inconsistent();
@@ -27259,10 +27261,11 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
   if (P->n_pins > 0) {
     sli_constraints_largest(&q->backward, v.x, w->largest, lanes);
   }
-  if (!sli_constraints_hold(w, v.x)) {
+  holds = sli_constraints_hold(w, v.x, 1);
+  sli_constraints_set(w, v.x);
+  if (!holds || !sli_constraints_hold(w, v.x, 2)) {
     return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
   }
-  sli_constraints_set(w, v.x);
   sli_unpack(F, q, &w->rhs, v.x);
   return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite(&w->rhs, q->nb);
 }

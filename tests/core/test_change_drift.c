@@ -84,6 +84,39 @@ static void a_change_as_large_as_the_matrix(void **state) {
     }
 }
 
+/* Two rows beside a component whose entries are larger by 160 digits, pivots of both signs: what
+ * they lose is drift, and nothing else is. The first pivot rises: an entry of L cancels, if it was
+ * large. */
+static void drift_is_that_of_the_changed_component(void **state) {
+    (void)state;
+    static const sl_int p[5] = {0, 2, 3, 5, 6}, i[6] = {0, 1, 1, 2, 3, 3};
+    static const sl_int rows[3] = {0, 1, 1}, columns[3] = {0, 0, 1};
+    static const double deltas[3] = {1e-7, -1e-7, 1e-7}, b[4] = {1.0, 0.7, 0.0, 0.0};
+    for (int firm = 0; firm < 2; firm++) {
+        double x[6] = {firm ? 1e-4 : 1e-125, firm ? -1e-5 : -3e-66, 1e-4, -1e156, 1e155, 1e157};
+        double y[4], r[4];
+        const sl_csc A = {4, 4, p, i, x};
+        sl_factor *F;
+        sl_stats stats;
+        sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
+        SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
+        assert_true(stats.factor.growth < 2.0);
+        SL_CHECK(sl_factor_change_entries(F, NULL, rows, columns, deltas, 3, NULL, &stats));
+        SL_CHECK(sl_factor_solve(F, y, 4, b, 4, 1, NULL));
+        for (int k = 0; k < 3; k++) {
+            x[k] += deltas[k];
+        }
+        SL_CHECK(sl_csc_residual(&A, r, 4, NULL, y, 4, b, 4, 1));
+        const double error = fmax(fabs(r[0]), fabs(r[1])) /
+                             (2e-4 * fmax(fabs(y[0]), fabs(y[1])) + 1.0);
+        print_message("error %.1e, drift %.1e\n", error, stats.change.drift);
+        assert_true(firm ? error <= 1e-15 && stats.change.drift <= 1e-14
+                         : error >= 1e-8 && stats.change.drift >= error);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
 /* The largest entry goes, or a change is much larger than a pivot that it passes through: most of
  * what pivots were computed from is rounding. */
 static void lost_digits_are_counted(void **state) {
@@ -148,6 +181,7 @@ int main(void) {
         cmocka_unit_test(drift_is_relative_to_what_remains),
         cmocka_unit_test(growth_is_relative_to_what_remains),
         cmocka_unit_test(a_change_as_large_as_the_matrix),
+        cmocka_unit_test(drift_is_that_of_the_changed_component),
         cmocka_unit_test(lost_digits_are_counted),
         cmocka_unit_test(changes_may_make_a_matrix_definite),
     };

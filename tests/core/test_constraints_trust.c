@@ -71,6 +71,38 @@ static void lost_digits_are_reported_in_each_component(void **state) {
     }
 }
 
+/* A pinned row in an equality: where both miss by nearly 1e-8, x = g in the row would move the
+ * equality beyond. */
+static void equalities_hold_with_what_pins_are_set_to(void **state) {
+    (void)state;
+    static const sl_int rows[2] = {5, 100};
+    static const double weights[2] = {1.0, -3.0}, g[2] = {0.3, 0.01};
+    double b[N] = {0.0}, x[N];
+    int solved = 0, refused = 0;
+    b[50] = 1e-3;
+    for (int k = 0; k < 200; k++) {
+        paths_t y = paths_make(two_paths(1e-13 * pow(1.05, k), 1.0, 1.0), NULL);
+        SL_CHECK(pin_row(y.P, rows[0], NULL));
+        SL_CHECK(sl_constraints_add(y.P, rows, weights, 2, NULL));
+        const sl_status status = sl_constraints_solve(y.P, NULL, x, N, b, N, g, 2, 1, NULL);
+        if (status == SL_OK) {
+            double largest = 0.0;
+            for (int j = 0; j < HALF; j++) {
+                largest = fmax(largest, fabs(x[j]));
+            }
+            assert_true(x[rows[0]] == g[0]);
+            assert_true(fabs(x[5] - 3.0 * x[100] - g[1]) <= 1e-8 * (4.0 * largest + g[1]));
+            solved++;
+        } else {
+            assert_int_equal(status, SL_ERR_INACCURATE);
+            refused++;
+        }
+        paths_free(&y);
+    }
+    print_message("%d solved, %d refused\n", solved, refused);
+    assert_true(solved > 20 && refused > 20);
+}
+
 /* The same where b is in the other path only, and one of two pins moves this one: a local solve
  * does not visit its columns on the way forward. What rounding leaves of the pins is luck. */
 static void forces_of_pins_alone_are_judged(void **state) {
@@ -308,6 +340,7 @@ static void failing_allocations_change_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lost_digits_are_reported_in_each_component),
+        cmocka_unit_test(equalities_hold_with_what_pins_are_set_to),
         cmocka_unit_test(forces_of_pins_alone_are_judged),
         cmocka_unit_test(a_second_tree_may_have_an_unknown_null_vector),
         cmocka_unit_test(components_without_pins_are_as_without_a_set),

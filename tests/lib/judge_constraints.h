@@ -4,6 +4,7 @@
 
 #include "judge.h"
 #include "constraint_calls.h"
+#include "exact_solve.h"
 
 enum { JUDGE_EQUALITIES = 3 };
 
@@ -274,8 +275,36 @@ static inline double judge_all_ways(judge_t *t, const double *B, double most) {
     return worst;
 }
 
-/* Columns of the inverse are judged as solutions, and entries by all other ways beside them: they
- * may differ by 1000 times as much as sweeps from full solves, and by what growth tells. */
+/* The largest error of the columns B of the inverse, relative to the largest entry. */
+static inline double judge_columns_error(const judge_t *t, const double *B, double most) {
+    const size_t n = t->n;
+    twice_t *x = (twice_t *)test_array(n, sizeof *x);
+    double *e = test_reals(n), error = 0.0;
+    for (size_t j = 0; j < n; j++) {
+        e[j] = 1.0;
+        exact_solve(t->F, &t->y->M.view, e, NULL, x);
+        for (size_t i = 0; i < n; i++) {
+            error = fmax(error, fabs(x[i].high - B[i + j * n]) / most);
+        }
+        e[j] = 0.0;
+    }
+    free(x);
+    free(e);
+    return error;
+}
+
+/* What entries of the inverse may differ by from its columns B: 1000 times as much as sweeps from
+ * full solves (spread), what growth tells, and 1000 times the error of B. */
+static inline double judge_entries_limit(const judge_t *t, const double *B, double most,
+                                         double spread, double worst) {
+    const double growth = DBL_EPSILON * t->stats.factor.growth;
+    const double limit = fmax(judge_forward(t, 1e-9, spread), growth);
+    return worst <= limit || t->y->skips || t->y->is_complex
+               ? limit
+               : fmax(limit, judge_forward(t, 0.0, judge_columns_error(t, B, most)));
+}
+
+/* Columns of the inverse are judged as solutions, and entries by all other ways beside them. */
 static inline void judge_way_inverse(judge_t *t) {
     const size_t n = t->n;
     double *B = test_reals(n * n), *e = test_reals(n), *x = test_reals(n);
@@ -312,8 +341,7 @@ static inline void judge_way_inverse(judge_t *t) {
             judge_grown(t, worst, spread);
         }
         judge_answer(t, most > 0.0 && most <= 1e300 ? worst : -1.0,
-                     fmax(judge_forward(t, 1e-9, spread), DBL_EPSILON * t->stats.factor.growth), 0,
-                     "entries of the inverse");
+                     judge_entries_limit(t, B, most, spread, worst), 0, "entries of the inverse");
     }
     free(rows);
     free(B);

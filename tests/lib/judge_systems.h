@@ -264,15 +264,16 @@ static inline sl_int judge_root(sl_int *of, sl_int i) {
     return i;
 }
 
-/* The first row of each row's component. */
-static inline sl_int *judge_components(const sl_csc *A) {
+/* The first row of each row's component; stored: zeros that are stored join rows, too. */
+static inline sl_int *judge_components(const sl_csc *A, int stored) {
     const sl_int n = A->n_cols;
     sl_int *of = test_ints((size_t)n);
     double *D = ref_dense(A);
+    char *pattern = ref_pattern(A);
     for (sl_int i = 0; i < n; i++) {
         of[i] = i;
         for (sl_int j = 0; j < i; j++) {
-            if (CELL(D, n, i, j) != 0.0) {
+            if (CELL(D, n, i, j) != 0.0 || (stored && CELL(pattern, n, i, j))) {
                 const sl_int a = judge_root(of, i), b = judge_root(of, j);
                 of[a > b ? a : b] = a > b ? b : a;
             }
@@ -282,6 +283,7 @@ static inline sl_int *judge_components(const sl_csc *A) {
         of[i] = judge_root(of, i);
     }
     free(D);
+    free(pattern);
     return of;
 }
 
@@ -319,7 +321,7 @@ static inline judge_system_t judge_system(int family, uint64_t seed) {
         gen_list_free(&t);
         free(M);
     }
-    y.of = judge_components(&y.M.view);
+    y.of = judge_components(&y.M.view, 0);
     y.constant = y.skips && (own <= 3 || own == 9 || own == 17);
     if (y.skips && gen_below(&state, 2)) {
         y.mass = judge_weights(y.n, &state);

@@ -238,9 +238,10 @@ static inline void judge_way_change(judge_t *t) {
         }
     }
     if (F != NULL && judge_succeeded(t, status, "change")) {
-        sl_int *of = judge_components(&M.view);
         sl_stats now;
         now.factor = sl_factor_view(F).info;
+        const int is_mixed = now.factor.positive > 0 && now.factor.negative > 0;
+        sl_int *of = judge_components(&M.view, is_mixed); /* growth is that of a pattern */
         double *b = test_reals(t->n), *x = test_reals(t->n), *z = test_reals(t->n);
         gen_reals(z, t->n, t->seed);
         if (t->y->skips) {
@@ -284,7 +285,7 @@ static inline void judge_way_submatrix(judge_t *t) {
                         "restrict") &&
         count > 0) {
         gen_matrix_t B = subset_matrix(&t->y->M.view, rows, count);
-        sl_int *of = judge_components(&B.view);
+        sl_int *of = judge_components(&B.view, 0);
         double *b = test_reals(t->n), *x = test_reals(t->n);
         gen_reals(b, t->n, gen_bits(&t->state));
         SL_CHECK(sl_factor_solve(G, x, (size_t)count, b, (size_t)count, 1, NULL));
@@ -355,7 +356,7 @@ static inline void judge_way_edit(judge_t *t) {
         judge_succeeded(t, sl_factor_edit(&G, t->F, S, &B.view, new_of, &opt, &stats),
                         "factor edit")) {
         const size_t rows = (size_t)m;
-        sl_int *of = judge_components(&B.view);
+        sl_int *of = judge_components(&B.view, 0);
         double *b = test_reals(rows), *x = test_reals(rows), *z = test_reals(rows);
         gen_reals(z, rows, gen_bits(&t->state));
         memcpy(b, z, rows * sizeof *b);

@@ -138,7 +138,7 @@ static double sli_rank_swept(const sli_update *u) {
  * remain, by rows if all pivots have one sign. Only a bound from below is known of it: a pivot, if
  * all have one sign, and the difference of a bound before and what the pass changes. That falls
  * also where |a| doubles: once it is a small part of what it was, L D L' shows more. The pass is
- * compared with its own columns, as other components may be larger. */
+ * compared with its own columns: other components may be larger by any factor. */
 static void sli_rank_note(const sli_update *u) {
     sl_factor *F = u->F;
     sl_factor_info *info = &F->stats.factor;
@@ -146,8 +146,9 @@ static void sli_rank_note(const sli_update *u) {
     const double own = fmin(u->entry, fabs(u->entry - u->fall));
     const int has_fallen = 16.0 * left < F->history.checked || 16.0 * own < u->entry;
     const double shown = u->sign == 0.0 && has_fallen ? sli_rank_shown(u) : 0.0;
-    const double least = u->sign != 0.0 ? u->top : fmax(DBL_EPSILON * F->history.scale, shown);
-    const double scale = fmax(left, least), local = fmax(fmin(own, scale), least);
+    const double known = u->sign != 0.0 ? u->top : shown, rest = u->sign != 0.0 ? 0.0 : DBL_EPSILON;
+    const double scale = fmax(left, fmax(rest * F->history.scale, known));
+    const double local = fmax(fmin(own, scale), fmax(rest * u->entry, known));
     const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
     const double swept = sli_rank_swept(u);

@@ -118,8 +118,8 @@ SLI_COLD static double sli_constraints_least(const sli_constraints_solve *w, sl_
                : w->forces[(ptrdiff_t)s * w->lanes + r] / largest;
 }
 
-/* Is C' x = g, for the equalities whose rows are all in the vector? */
-static int sli_constraints_hold(const sli_constraints_solve *w, const double *x) {
+/* Is C' x = g, for the equalities of `fewest` rows or more that are all in the vector? */
+static int sli_constraints_hold(const sli_constraints_solve *w, const double *x, sl_int fewest) {
     const sl_constraints *P = w->P;
     const sli_reach *R = &w->q->backward;
     const sl_int lanes = w->lanes;
@@ -129,7 +129,7 @@ static int sli_constraints_hold(const sli_constraints_solve *w, const double *x)
             const sli_pin *pin = P->pins[p];
             const double g = sli_constraints_value(w, p, r);
             double sum = -g, size = 0.0, weight = 0.0;
-            sl_int s = 0;
+            sl_int s = pin->count < fewest ? -1 : 0;
             for (k = 0; k < pin->count && s != -1; k++) {
                 const sl_int column = P->F->S->iperm[pin->rows[k]];
                 s = sli_reach_step_of(R, column);
@@ -204,6 +204,7 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
     const sl_int lanes = (sl_int)1 << kind;
     double norms[SLI_TILE];
     sl_int p;
+    int holds;
     w->lanes = lanes;
     if (!sli_constraints_forward(w, &v, norms)) {
         return sli_constraints_inconsistent();
@@ -226,10 +227,11 @@ SLI_HOT static sl_status sli_constraints_block(sli_constraints_solve *w) {
     if (P->n_pins > 0) {
         sli_constraints_largest(&q->backward, v.x, w->largest, lanes);
     }
-    if (!sli_constraints_hold(w, v.x)) {
+    holds = sli_constraints_hold(w, v.x, 1);
+    sli_constraints_set(w, v.x); /* which changes equalities of several rows */
+    if (!holds || !sli_constraints_hold(w, v.x, 2)) {
         return sli_refuse(SL_ERR_INACCURATE, "C' x = g holds too inaccurately");
     }
-    sli_constraints_set(w, v.x);
     sli_unpack(F, q, &w->rhs, v.x);
     return sli_sweep_is_finite(F, q, v.x, lanes) ? SL_OK : sli_not_finite(&w->rhs, q->nb);
 }
