@@ -1,7 +1,8 @@
 /* test_change_rare.c: changes by zeros, of zeros, to pivots of rounding, outside of L */
 #include "tests/lib/factored.h"
 
-/* A vector of zeros, or one whose square is 0, changes no bit. */
+/* A vector of zeros, or one whose square is 0, changes no number. The signs of zeros are not
+ * compared: valgrind 3.19 computes a fused 0 - 1 * 0 as -0. */
 static void zeros_change_nothing(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
@@ -14,7 +15,9 @@ static void zeros_change_nothing(void **state) {
     for (int k = 0; k < 2; k++) {
         const sl_csc V = {100, 1, p, i, x + k};
         SL_CHECK(sl_factor_rank_update(y.F, &V, sigma, NULL, NULL));
-        assert_memory_equal(L, sl_factor_view(y.F).L, size * sizeof *L);
+        for (size_t at = 0; at < size; at++) {
+            assert_true(L[at] == sl_factor_view(y.F).L[at]);
+        }
         assert_memory_equal(D, sl_factor_view(y.F).D, sizeof D);
     }
     free(L);

@@ -99,6 +99,30 @@ static void an_overflow_is_refused(void **state) {
     factored_free(&y);
 }
 
+/* The same for a row, whose entry of A^-1 overflows. */
+static void a_row_may_overflow(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 2, 3, 4}, i[4] = {0, 1, 1, 2};
+    static const double x[4] = {1e-300, 1e-299, 1.000000001e-298, 1.0}; /* D: 1e-300, 1e-307, 1 */
+    const sl_csc A = {3, 3, p, i, x};
+    sl_options opt = options_none();
+    sl_stats stats;
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_constraints *P;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    SL_CHECK(sl_constraints_create(&P, F, NULL));
+    SL_CHECK(pin_row(P, 2, NULL));
+    SL_EXPECT(SL_ERR_NOT_FINITE, pin_row(P, 0, &stats));
+    assert_int_equal(stats.error.row, 0);
+    assert_int_equal(pins_count(P), 1);
+    sl_constraints_free(P);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 /* A weak mass term: without pins x is 1e11 times as large as with them. */
 static void lost_digits_are_noticed(void **state) {
     (void)state;
@@ -172,6 +196,7 @@ int main(void) {
         cmocka_unit_test(failed_factors_are_refused),
         cmocka_unit_test(unsuited_factors_are_refused),
         cmocka_unit_test(an_overflow_is_refused),
+        cmocka_unit_test(a_row_may_overflow),
         cmocka_unit_test(lost_digits_are_noticed),
         cmocka_unit_test(zeros_between_pins_are_accurate),
         cmocka_unit_test(a_matrix_without_rows_has_no_pins),

@@ -92,6 +92,30 @@ static void growth_is_refused_until_other_values_come(void **state) {
     sl_fixed_free(D);
 }
 
+/* L as complex: both rows of a pair have the same values, or the next solves are refused. */
+static void pairs_stay_complex(void **state) {
+    (void)state;
+    static const sl_int p[5] = {0, 3, 5, 7, 8}, i[8] = {0, 1, 2, 1, 3, 2, 3, 3}, fixed[2] = {2, 3};
+    static const double g[2] = {1.0, 2.0};
+    double x[8] = {3.0, 0.0, 1.5, 3.0, 1.5, 2.0, 0.0, 2.0}, y[4], z[4];
+    const sl_csc A = {4, 4, p, i, x};
+    sl_options opt = options_none();
+    sl_fixed *D = NULL;
+    opt.storage = SL_STORAGE_COMPLEX;
+    opt.block_size = 2;
+    SL_CHECK(sl_fixed_create(&D, &A, fixed, 2, &opt, NULL));
+    SL_CHECK(sl_fixed_solve(D, y, 4, NULL, 0, g, 2, 1, NULL));
+    assert_true(fabs(y[0] + 0.5) < 1e-15 && fabs(y[1] + 1.0) < 1e-15);
+    x[3] = 4.0;
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_fixed_refactor(D, &A, NULL));
+    SL_EXPECT(SL_ERR_STALE, sl_fixed_solve(D, z, 4, NULL, 0, g, 2, 1, NULL));
+    x[3] = 3.0;
+    SL_CHECK(sl_fixed_refactor(D, &A, NULL));
+    SL_CHECK(sl_fixed_solve(D, z, 4, NULL, 0, g, 2, 1, NULL));
+    assert_memory_equal(y, z, sizeof y);
+    sl_fixed_free(D);
+}
+
 /* Stiffnesses of 1e-300: a solution overflows, of one right-hand side or of several. */
 static void a_solution_may_overflow(void **state) {
     (void)state;
@@ -153,6 +177,7 @@ int main(void) {
         cmocka_unit_test(the_last_block_may_be_cut),
         cmocka_unit_test(what_is_no_pattern_is_refused),
         cmocka_unit_test(growth_is_refused_until_other_values_come),
+        cmocka_unit_test(pairs_stay_complex),
         cmocka_unit_test(a_solution_may_overflow),
         cmocka_unit_test(values_that_are_not_finite_are_refused),
         cmocka_unit_test(no_entries_need_no_values),

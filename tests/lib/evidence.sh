@@ -6,8 +6,9 @@
 #
 # Runs each target, beside all fuzzers, each of which gets SECONDS in all. Without targets: all.
 # A call goes on where the last one stopped: what has passed on this code, on any machine, is not
-# run again, and a fuzzer gets the rest of its seconds. The code is what tests depend on: a hash of
-# src, tools, tests, bench, the Makefile and the header without pages, figures and results.
+# run again, and a fuzzer gets the rest of its seconds. The code is a hash of what a target may
+# read: src, tools, tests, bench, the Makefile and the header without pages, figures and results;
+# without packages and adapters where C is tested; and without other tests for fuzzers.
 #
 # Results are in tests/evidence.tsv, a row for the last run of each target; logs are in
 # build/evidence. Ends with the table, and with 1 if something failed or was not run.
@@ -22,6 +23,10 @@ nightly='test-aarch64 sanitize test-clang test-cxx test-openmp test-no-metis tes
     test-clients test-npm test-view test-live test-wheels test-octave check-install'
 often='size check-packs test-no-simd test-stack test-shared abi test-examples docs test-home
     test-adapters test-python races test'
+# Of these, what compiles and runs C alone.
+in_c=" judge cov mcdc valgrind sanitize races $(echo test-{msan,i386,i386-x87,armhf,s390x} \
+    test-{exchange,ppc64le,riscv64,musl,tcc,mingw,mingw-clang,pthreads,openmp,no-singular} \
+    test-{aarch64,clang,no-metis,packs,no-simd,stack}) "
 file=tests/evidence.tsv
 dir=build/evidence
 tab=$(printf '\t')
@@ -41,8 +46,25 @@ code_alone() {
     grep -v -e '[.]md$' -e "^$file\$" -e '^tools/docs/figures/' -e '^tools/pictures/' | sort -u
 }
 places='src tools tests bench Makefile sparse_local.h'
-code=$({ git ls-files -co --exclude-standard -- $places 2>/dev/null || find $places -type f; } |
-    code_alone | xargs sha256sum 2>/dev/null | sha256sum | cut -c 1-12)
+files=$({ git ls-files -co --exclude-standard -- $places 2>/dev/null || find $places -type f; } |
+    code_alone)
+# code_without PATHS: a hash of the files whose names do not begin so
+code_without() {
+    echo "$files" | grep -v -E "^($1)" | xargs sha256sum 2>/dev/null | sha256sum | cut -c 1-12
+}
+others='tests/(adapters|abi|web|lib/evidence)|tools/(adapters|docs|octave|packaging|python|web)'
+code_of_all=$(code_without none)
+code_of_c=$(code_without "$others")
+code_of_fuzzers=$(code_without "$others|tests/(core|tools)|tools/(build|cli|draw|examples)|bench")
+
+# code_of TARGET
+code_of() {
+    case $1,$in_c in
+    fuzz-*) echo "$code_of_fuzzers" ;;
+    *,*" $1 "*) echo "$code_of_c" ;;
+    *) echo "$code_of_all" ;;
+    esac
+}
 commit=$(git rev-parse --short HEAD 2>/dev/null || echo none)
 changed=$(git status --porcelain -- $places 2>/dev/null | cut -c 4- | code_alone)
 commit=$commit${changed:+-changed}
@@ -62,7 +84,8 @@ row() {
 # keep TARGET STATUS PASSED FAILED SKIPPED SECONDS REMARK: a row in a file of its own, at once
 keep() {
     [ "$2 $3 $4 $5" != 'passed 0 0 0' ] || set -- "$1" "$2" yes 0 0 "$6" "$7" # it does not count
-    printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$1" "$code" "$2" "$3" "$4" "$5" \
+    printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' \
+        "$1" "$(code_of "$1")" "$2" "$3" "$4" "$5" \
         "$commit" "$(date +%Y-%m-%d)" "$machine" "$6" "$7" >"$dir/new-$1" &&
         mv "$dir/new-$1" "$dir/$1.row"
 }
@@ -79,7 +102,7 @@ collect() {
 
 # has_passed TARGET: on this code
 has_passed() {
-    row "$1" | awk -F "$tab" -v code="$code" '{ yes = $2 == code && $3 == "passed" }
+    row "$1" | awk -F "$tab" -v code="$(code_of "$1")" '{ yes = $2 == code && $3 == "passed" }
         END { exit !yes }'
 }
 
@@ -123,7 +146,7 @@ table() {
     printf '\n| target | passed | failed | skipped | commit | date | machine | seconds | remark |\n'
     echo '|---|---|---|---|---|---|---|---|---|'
     for target in $all; do
-        row "$target" | awk -F "$tab" -v target="$target" -v code="$code" '
+        row "$target" | awk -F "$tab" -v target="$target" -v code="$(code_of "$target")" '
             { found = 1 }
             {
                 if ($2 != code) $7 = "not run on this code; last on " $7
@@ -145,7 +168,8 @@ fi
 
 # done_before NAME: executions and seconds of a fuzzer on this code, without a failure
 done_before() {
-    { row "fuzz-$1"; cat "$dir/fuzz-$1.row" 2>/dev/null; } | awk -F "$tab" -v code="$code" '
+    { row "fuzz-$1"; cat "$dir/fuzz-$1.row" 2>/dev/null; } |
+        awk -F "$tab" -v code="$code_of_fuzzers" '
         $2 == code { runs = $3 == "failed" ? 0 : $4 + 0; spent = $3 == "failed" ? 0 : $10 + 0 }
         END { print runs + 0, spent + 0 }'
 }

@@ -111,6 +111,10 @@ check 'other code: rows say so, and where they ran' "
 check 'other code: all run again' "git commit -qam second && evidence 2 judge docs &&
     ran judge docs && grep -qx 'fuzz_one 2' ran &&
     in_table \"| \\\`fuzz-one\\\` | 100 runs | 0 | 0 | \$(git rev-parse --short HEAD) |\""
+check 'packages are not code of C and fuzzers, other tests not of fuzzers' "
+    mkdir -p tools/python tests/core && touch tools/python/a.py &&
+    evidence 2 judge docs && ran docs && ! grep fuzz_ ran && touch tests/core/a.c &&
+    evidence 2 judge docs && ran docs judge && ! grep fuzz_ ran"
 check 'a failure: the others run, its row and the last line say so, and it runs again' "
     echo docs >FAIL && echo 1 >>src/code.h && ! evidence 2 docs judge && ran docs judge &&
     in_table '| \`docs\` | 0 | 1 | 0 | ' && in_table '**failed**' &&

@@ -129,11 +129,11 @@ class RandomPairs:
         return self.rows, self.columns, d[0] + d[1] - 2.0 * np.concatenate(answers[1:] + [[]])
 
 
-# ---- the engines: an executor each ----
+# ---- the engines: an executor each, or the client of Dask ----
 
 @contextlib.contextmanager
 def executor(engine, workers, scheduler):
-    """What has submit, as in concurrent.futures; None: this process does all."""
+    """What has submit; None: this process does all."""
     if engine == "processes":
         spawn = multiprocessing.get_context("spawn")
         with concurrent.futures.ProcessPoolExecutor(workers, spawn) as pool:
@@ -147,8 +147,8 @@ def executor(engine, workers, scheduler):
         # without a limit, since pages of a mapped file count as memory of the worker
         cluster = dict(address=scheduler) if scheduler else dict(
             n_workers=workers, threads_per_worker=1, dashboard_address=None, memory_limit=0)
-        with Client(**cluster) as client, client.get_executor() as pool:
-            yield pool
+        with Client(**cluster) as client:
+            yield client
     else:
         yield None
 
@@ -159,12 +159,28 @@ def answers_of(pool, tasks):
         for k, (call, *arguments) in tasks.items():
             yield k, call(*arguments)
         return
+    if not isinstance(pool, concurrent.futures.Executor):
+        yield from answers_of_dask(pool, tasks)
+        return
     waiting = {pool.submit(*task): k for k, task in tasks.items()}
     for future in concurrent.futures.as_completed(list(waiting)):
         try:
             yield waiting.pop(future), future.result()
         except concurrent.futures.BrokenExecutor:
             sys.exit("workers.py: a worker died; the same command computes what is missing")
+
+
+def answers_of_dask(client, tasks):
+    """The same. The client's executor fails if a worker dies while its answer is fetched; this
+    asks again."""
+    from distributed import as_completed
+    waiting = {}
+    for k, task in tasks.items():
+        future = client.submit(*task, pure=False)
+        waiting[future.key] = k, future
+    for done, answer in as_completed([future for k, future in waiting.values()],
+                                     with_results=True):
+        yield waiting.pop(done.key)[0], answer
 
 
 # ---- answers on the disk ----
