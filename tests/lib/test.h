@@ -40,15 +40,12 @@ static inline void test_status(sl_status got, sl_status wanted, const char *call
         skip(); \
     } while (0)
 
-/* Skips the test where long double is computed as double: under valgrind. */
-#define TEST_NEEDS_LONG_DOUBLE() \
-    do { \
-        volatile long double sum = 1.0L; \
-        sum += LDBL_EPSILON; \
-        if (sum == 1.0L) { \
-            TEST_SKIP("long double has the digits of double here"); \
-        } \
-    } while (0)
+/* valgrind computes long double as double, and a fused 0 - 1 * 0 as -0 (version 3.19). */
+static inline int under_valgrind(void) {
+    volatile long double sum = 1.0L;
+    sum += LDBL_EPSILON;
+    return sum == 1.0L;
+}
 
 /* A file that may be written at any time. */
 #if defined(_WIN32)

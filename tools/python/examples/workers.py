@@ -174,13 +174,9 @@ def answers_of_dask(client, tasks):
     """The same. The client's executor fails if a worker dies while its answer is fetched; this
     asks again."""
     from distributed import as_completed
-    waiting = {}
-    for k, task in tasks.items():
-        future = client.submit(*task, pure=False)
-        waiting[future.key] = k, future
-    for done, answer in as_completed([future for k, future in waiting.values()],
-                                     with_results=True):
-        yield waiting.pop(done.key)[0], answer
+    waiting = {client.submit(*task, pure=False): k for k, task in tasks.items()}
+    for future, answer in as_completed(list(waiting), with_results=True):
+        yield waiting.pop(future), answer
 
 
 # ---- answers on the disk ----
