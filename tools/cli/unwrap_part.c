@@ -237,6 +237,7 @@ static void try_uncut(const unwrap_command *cmd, unwrap_part *p, sheet *uncut) {
     if (other.cut == 0 && other.energy < slack * p->energy) {
         unwrap_part_free(p);
         *p = other;
+        p->l.m = &p->s.m; /* which it borrows */
     } else {
         unwrap_part_free(&other);
     }
